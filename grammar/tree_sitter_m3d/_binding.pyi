@@ -1,0 +1,6 @@
+from collections.abc import Buffer
+
+def language() -> object: ...
+def read_table(
+    source: Buffer, start: int, end: int, head: str, row: str, /
+) -> tuple[tuple[float, ...], bytearray, bytearray, int, str | None]: ...

@@ -1,0 +1,65 @@
+"""The numbers of a big table, read in one pass: millions of rows in a tenth of a second, without a syntax tree."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
+
+from ._binding import read_table as _read_table
+
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
+
+Expected = Literal["number", "digit", "space", "<", ",", ">", "*/"]
+
+
+class Stop(NamedTuple):
+    """Where a table stops fitting its layout, as a byte offset, and what should have stood there.
+
+    `digit` is one within a numeral; `space` is anything that ends one; `*/` is the end of the comment that begins
+    there.
+    """
+
+    offset: int
+    expected: Expected
+
+
+class TableData(NamedTuple):
+    """What was read of a table: the numbers of its head, and all whole rows before the place where it stops fitting.
+
+    `rows` holds `width` doubles a row, `offsets` the byte offset at which each row begins, as 32 bits where they are
+    enough. Neither is copied by `numpy.asarray(data.rows).reshape(-1, data.width)`.
+    """
+
+    head: tuple[float, ...]
+    rows: memoryview
+    offsets: memoryview
+    width: int
+    stop: Stop | None
+
+    def __len__(self) -> int:
+        return len(self.offsets)
+
+
+def read_table(source: Buffer, start: int, end: int, head: str, row: str) -> TableData:
+    """Reads the numbers of `source[start:end]`: the head once, then rows.
+
+    A layout has an `n` for each number and a `v` for each vector `< x, y, z >`: POLYGONS' SFACETS are `"n"` and
+    `"nnnvvv"`. White space and nested comments may stand between any two tokens. Numbers are rounded correctly; one
+    too large is infinite. Other threads run meanwhile.
+
+    >>> read_table(b"2  0 1 2  2 1 0", 0, 15, "n", "nnn").rows.tolist()
+    [0.0, 1.0, 2.0, 2.0, 1.0, 0.0]
+    """
+    values, rows, offsets, at, expected = _read_table(source, start, end, head, row)
+    size = len(offsets) // max(len(rows) // (8 * _width(row)), 1)
+    return TableData(
+        values,
+        memoryview(rows).cast("d"),
+        memoryview(offsets).cast("Q" if size == 8 else "I"),
+        _width(row),
+        None if expected is None else Stop(at, cast(Expected, expected)),
+    )
+
+
+def _width(layout: str) -> int:
+    return len(layout) + 2 * layout.count("v")

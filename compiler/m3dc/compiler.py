@@ -1,0 +1,39 @@
+"""The whole way from text to IR: `compile`, a pure function."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .check import check
+from .diagnostics import Diagnostic, Findings
+from .evaluate import Evaluator
+from .ir import SceneIR
+from .lower import lower
+from .source import Source
+from .syntax import parse
+
+
+class Result(NamedTuple):
+    """What compiling gave: the IR as far as it goes, and all diagnostics in the order of the text."""
+
+    ir: SceneIR
+    diagnostics: tuple[Diagnostic, ...]
+    source: Source
+
+    @property
+    def ok(self) -> bool:
+        """Whether the IR is complete: no diagnostic is an error."""
+        return all(diagnostic.severity != "error" for diagnostic in self.diagnostics)
+
+
+def compile(source: str | bytes | Source, name: str = "") -> Result:
+    """Compile a scene. Never raises on any text; `name` is what to call it in the IR and in messages."""
+    if not isinstance(source, Source):
+        source = Source(source.encode() if isinstance(source, str) else source, name)
+    findings = Findings()
+    syntax = parse(source, findings)
+    program = check(source, syntax.items, syntax.faulty, findings)
+    world = Evaluator(findings).run(program)
+    ir = lower(world, source.name)
+    diagnostics = sorted(dict.fromkeys(findings.found), key=lambda diagnostic: diagnostic.span)
+    return Result(ir, tuple(diagnostics), source)

@@ -1,0 +1,391 @@
+"""Runs the checked program: statements in file order, by value, to the records that make up the scene.
+
+An assignment copies. A block changes what is there (`KEY { ... }`), or replaces it by a copy of a variable and then
+changes that (`KEY name { ... }`); primitives, textures, waves and colour ranges are added. Most statements only store
+their value; those that do more have an entry in `MEANING`, and what must hold of a whole block one in `geometry.py`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tree_sitter_m3d import table as language
+from tree_sitter_m3d.table import LANGUAGE, Default
+
+from . import ast, program
+from .diagnostics import Findings
+from .finish import FINISH
+from .ir import Span
+from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
+from .values import Record, TableValue, Value, Vector
+
+INTEGER_LIMIT = 2**31 - 1
+
+
+class World(NamedTuple):
+    """All that a scene adds up to. `sun` says before which of the lights the sky's sun was made."""
+
+    scene: Record
+    solids: tuple[Record, ...]
+    lights: tuple[Record, ...]
+    variables: dict[str, Value]
+
+
+class Evaluator:
+    """Holds the variables while the items of one scene are run in order."""
+
+    def __init__(self, findings: Findings) -> None:
+        self._findings = findings
+        self._variables: dict[str, Value] = {}
+        self._scene = Record("SCENE", (0, 0))
+        self._solids: list[Record] = []
+        self._lights: list[Record] = []
+
+    def run(self, items: tuple[program.Item, ...]) -> World:
+        """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings."""
+        for item in items:
+            self._findings.base = item.start
+            match item.content:
+                case program.Assignment():
+                    self._assign(item.content)
+                case program.Block():
+                    self._top(item.content)
+                case declarations:
+                    for declaration in declarations:
+                        self._variables[declaration.name.text] = self._default(declaration)
+        self._findings.base = 0
+        return World(self._scene, tuple(self._solids), tuple(self._lights), self._variables)
+
+    def _default(self, declaration: program.Declaration) -> Value:
+        if declaration.type == "NUMBER":
+            return 0.0
+        if declaration.type == "VECTOR":
+            return (0.0, 0.0, 0.0)
+        return Record(declaration.type, self._findings.absolute(declaration.name.span))
+
+    def _assign(self, item: program.Assignment) -> None:
+        name = item.target.text
+        value = self._variables[name]
+        if isinstance(item.value, ast.Name):
+            value = self._variables[item.value.text]
+        elif isinstance(item.value, ast.Number):
+            value = item.value.value
+        elif isinstance(item.value, ast.Vector):
+            value = self._components(item.value)
+        if isinstance(value, Record):
+            value = value.copy(self._findings.absolute(item.span))
+            if item.body is not None:
+                self._body(value, item.body)
+                FINISH[value.block](value, self._findings, whole=False)
+        self._variables[name] = value
+
+    def _top(self, block: program.Block) -> None:
+        if block.entry.keyword == "SCENE":
+            self._scene.span = self._findings.absolute(block.span)
+            self._body(self._scene, block.body)
+            FINISH["SCENE"](self._scene, self._findings, whole=True)
+            return
+        record = self._record(block)
+        FINISH[record.block](record, self._findings, whole=True)
+        (self._solids if record.block == "SOLID" else self._lights).append(record)
+
+    def _record(self, block: program.Block) -> Record:
+        """A new record: of default values, or a copy of a variable; then changed by the body."""
+        span = self._findings.absolute(block.span)
+        source = None if block.source is None else self._variables[block.source.text]
+        record = source.copy(span) if isinstance(source, Record) else Record(block.entry.keyword, span)
+        self._body(record, block.body)
+        return record
+
+    def _body(self, record: Record, members: tuple[program.Member, ...]) -> None:
+        if record.block == "TRANSFORM":
+            record.transform = self._steps(record.transform, members)
+            return
+        for member in members:
+            match member:
+                case program.Statement():
+                    self._statement(record, member)
+                case program.Table():
+                    self._table(record, member)
+                case program.Block():
+                    self._nested(record, member)
+
+    def _nested(self, record: Record, block: program.Block) -> None:
+        keyword = block.entry.keyword
+        if keyword == "TRANSFORM":
+            start = record.transform
+            if block.source is not None:
+                source = self._variables[block.source.text]
+                assert isinstance(source, Record)
+                start = source.transform
+            record.transform = self._steps(start, block.body)
+        elif block.entry.adds:
+            part = self._record(block)
+            FINISH[keyword](part, self._findings, whole=True)
+            record.parts += (part,)
+        else:
+            if block.source is not None:
+                source = self._variables[block.source.text]
+                assert isinstance(source, Record)
+                record.nested[keyword] = source.copy(self._findings.absolute(block.span))
+            nested = record.nested.get(keyword)
+            if nested is None:
+                nested = record.nested[keyword] = Record(keyword, self._findings.absolute(block.span))
+            self._body(nested, block.body)
+            FINISH[keyword](nested, self._findings, whole=True)
+            if keyword == "SKY":
+                self._lights.append(nested.member("SUN"))
+
+    def _steps(self, transform: Transform, members: tuple[program.Member, ...]) -> Transform:
+        """What a TRANSFORM block makes of the matrix before it: M = Mc M1 M2 ... (thesis 7.5.5.2)."""
+        depth = 0
+        for member in members:
+            assert isinstance(member, program.Statement)
+            if member.entry.keyword == "IDENTITY":
+                transform, depth = IDENTITY, 0
+                continue
+            depth += 1
+            if depth > LANGUAGE.limits["transforms"]:
+                most = LANGUAGE.limits["transforms"]
+                detail = f"at most {most} transformations a block; put the rest into another TRANSFORM block"
+                self._findings.add("M3D0307", member.span, detail)
+                break
+            values = self._values(member)
+            if values is None:
+                continue
+            numbers = [n for value in values for n in (value if isinstance(value, tuple) else (value,))]
+            with np.errstate(all="ignore"):
+                result = transform.then(STEPS[member.entry.keyword](*numbers))
+            if not (np.isfinite(result.matrix).all() and np.isfinite(result.inverse).all()):
+                self._findings.add("M3D0421", member.span, "its numbers are too large or too small")
+                continue
+            transform = result
+        return transform
+
+    # --- statements ---------------------------------------------------------------------------------------------
+
+    def _statement(self, record: Record, item: program.Statement) -> None:
+        entry = item.entry
+        values = self._values(item)
+        if values is None:
+            return
+        place = self._findings.absolute(item.span)
+        record.places[entry.keyword] = place
+        meaning = MEANING.get((record.block, entry.keyword))
+        if entry.is_flag:
+            value: Default = True
+        elif len(values) == 1:
+            value = values[0]
+        else:
+            value = tuple(float(v) for v in values if not isinstance(v, tuple))
+        if meaning is None:
+            record.values[entry.keyword] = value
+        else:
+            meaning(record, entry.keyword, value)
+
+    def _values(self, item: program.Statement) -> list[float | Vector] | None:
+        """The arguments' values, in range; None where one is not and has no substitute."""
+        values: list[float | Vector] = []
+        for number, (argument, expected) in enumerate(zip(item.arguments, item.entry.arguments, strict=True)):
+            value = self._in_range(argument, expected, item.entry, number)
+            if value is None:
+                return None
+            values.append(value)
+        return values
+
+    def _in_range(
+        self, argument: ast.Argument, expected: language.Argument, entry: language.Statement, number: int
+    ) -> float | Vector | None:
+        value = self._value(argument)
+        if expected.shape == "integer":
+            assert isinstance(value, (int, float))
+            if abs(value) > INTEGER_LIMIT:
+                self._findings.add("M3D0114", argument.span, "a whole number is at most 2147483647")
+                return None
+            value = float(math.trunc(value))
+        bounds = entry.bounds or expected.bounds
+        if bounds is None:
+            return value
+        parts = value if isinstance(value, tuple) else (value,)
+        if all(part in bounds.interval for part in parts):
+            return value
+        shown = ", ".join(f"{part:g}" for part in parts)
+        if bounds.policy == "error":
+            self._findings.add(
+                "M3D0401",
+                argument.span,
+                f"{entry.keyword} is {shown}, expected {bounds.interval}",
+                fill=bounds.message,
+            )
+            return None
+        if bounds.policy == "default":
+            default = entry.default
+            value = default[number] if isinstance(default, tuple) and len(default) > 1 else default
+            assert isinstance(value, (int, float))
+            detail = f"{entry.keyword} {shown} is replaced by the default, {value:g}"
+        elif bounds.policy == "limit":
+            clamped = tuple(bounds.interval.nearest(part) for part in parts)
+            value = (clamped[0], clamped[1], clamped[2]) if isinstance(value, tuple) else clamped[0]
+            detail = f"{entry.keyword} {shown} is replaced by {', '.join(f'{part:g}' for part in clamped)}"
+        else:
+            detail = f"{entry.keyword} is {shown}"
+        self._findings.add("M3D0402", argument.span, detail, fill=bounds.message)
+        return value
+
+    def _value(self, argument: ast.Argument) -> float | Vector:
+        match argument:
+            case ast.Number():
+                return argument.value
+            case ast.Vector():
+                return self._components(argument)
+            case ast.Name():
+                value = self._variables[argument.text]
+                assert not isinstance(value, Record)
+                return value
+
+    def _components(self, vector: ast.Vector) -> Vector:
+        x, y, z = (self._value(component) for component in vector.components)
+        assert not isinstance(x, tuple)
+        assert not isinstance(y, tuple)
+        assert not isinstance(z, tuple)
+        return float(x), float(y), float(z)
+
+    # --- tables -------------------------------------------------------------------------------------------------
+
+    def _table(self, record: Record, item: program.Table) -> None:
+        keyword = item.entry.keyword
+        clash = next((k for k in _EXCLUDES.get(keyword, ()) if k in record.tables), None)
+        if clash is not None:
+            name = "FACETS" if keyword == "SFACETS" else keyword
+            self._findings.add("M3D0303", item.keyword.span, f"by {clash}, earlier", fill=name)
+            return
+        value = None
+        if not item.broken:
+            value = self._bulk(item, item.bulk) if item.bulk is not None else self._written_out(item)
+        if value is not None:
+            value = self._in_bounds(value, item)
+        if value is None:
+            record.broken |= {keyword}
+            return
+        if keyword == "COLORS" and "COLORS" in record.tables:
+            before = record.tables["COLORS"]
+            rows = np.vstack([before.rows, value.rows])
+            value = TableValue((), rows, np.concatenate([before.offsets, value.offsets]), value.span)
+        record.tables[keyword] = value
+        record.mesh = None
+
+    def _bulk(self, item: program.Table, data: program.TableData) -> TableValue | None:
+        rows = np.asarray(data.rows).reshape(-1, data.width)
+        offsets = np.asarray(data.offsets).astype(np.int64) + (self._findings.base - item.origin)
+        head = self._head(data.head, [item.span] * len(data.head))
+        if head is None:
+            return None
+        return TableValue(head, rows, offsets.astype(np.uint32), self._findings.absolute(item.span))
+
+    def _written_out(self, item: program.Table) -> TableValue | None:
+        """A table with variables in it."""
+        head = self._head([self._value(argument) for argument in item.head], [argument.span for argument in item.head])
+        if head is None:
+            return None
+        rows = [
+            [n for value in map(self._value, row) for n in (value if isinstance(value, tuple) else (value,))]
+            for row in item.rows
+        ]
+        width = sum(3 if a.shape == "vector" else 1 for a in item.entry.row)
+        offsets = np.array([row[0].span[0] + self._findings.base for row in item.rows], np.uint32)
+        return TableValue(head, np.array(rows, float).reshape(-1, width), offsets, self._findings.absolute(item.span))
+
+    def _head(self, values: Sequence[float | Vector], spans: list[Span]) -> tuple[int, ...] | None:
+        head: list[int] = []
+        for value, span in zip(values, spans, strict=True):
+            assert not isinstance(value, tuple)
+            if abs(value) > INTEGER_LIMIT:
+                self._findings.add("M3D0114", span, "a whole number is at most 2147483647")
+                return None
+            head.append(math.trunc(value))
+        return tuple(head)
+
+    def _in_bounds(self, value: TableValue, item: program.Table) -> TableValue | None:
+        """The table with every number within the bounds of its kind: set to a limit that has one, None where not."""
+        start = 0
+        for argument in item.entry.row:
+            columns = slice(start, start + (3 if argument.shape == "vector" else 1))
+            start = columns.stop
+            part = value.rows[:, columns]
+            if not np.isfinite(part).all():
+                row = int(np.flatnonzero(~np.isfinite(part).all(axis=1))[0])
+                self._row_error("M3D0114", value, row, "the largest number is about 1.8e308")
+                return None
+            bounds = argument.bounds
+            if bounds is None:
+                continue
+            low, high = bounds.interval.low, bounds.interval.high
+            below = part <= low if bounds.interval.low_open else part < low
+            above = part >= high if bounds.interval.high_open else part > high
+            outside = np.flatnonzero((below | above).any(axis=1))
+            if not outside.size:
+                continue
+            shown = ", ".join(f"{n:g}" for n in part[outside[0]])
+            if bounds.policy == "error":
+                self._row_error("M3D0401", value, outside[0], f"found {shown}", fill=bounds.message)
+                return None
+            self._row_error("M3D0402", value, outside[0], f"{shown} is set to the nearest limit", fill=bounds.message)
+            rows = value.rows.copy()
+            rows[:, columns] = part.clip(low, high)
+            value = value._replace(rows=rows)
+        return value
+
+    def _row_error(self, code: str, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
+        at = int(value.offsets[row]) - self._findings.base
+        self._findings.add(code, (at, at + 1), detail, fill=fill)
+
+
+# The tables that may not stand beside another, or itself, in one POLYGONS or TERRAIN (thesis 7.5.5.3).
+_EXCLUDES = {
+    "VERTICES": ("VERTICES",),
+    "FACETS": ("FACETS", "SFACETS"),
+    "SFACETS": ("FACETS", "SFACETS"),
+}
+
+
+# --- statements that do more than to store their value ------------------------------------------------------------
+
+Meaning = Callable[[Record, str, Default], None]
+
+
+def _off(flag: str) -> Meaning:
+    """A statement that takes back another flag."""
+
+    def meaning(record: Record, _keyword: str, _value: Default) -> None:
+        record.values[flag] = False
+
+    return meaning
+
+
+def _between_points(record: Record, keyword: str, value: Default) -> None:
+    """FROM and TO of a light set its direction anew each time (thesis 7.5.5.4)."""
+    record.values[keyword] = value
+    (fx, fy, fz), (tx, ty, tz) = record.vector("FROM"), record.vector("TO")
+    record.values["DIRECTION"] = (tx - fx, ty - fy, tz - fz)
+    record.places["DIRECTION"] = record.places[keyword]
+
+
+def _on_the_sky(record: Record, keyword: str, value: Default) -> None:
+    """ZENITH and AZIMUTH of a light set its direction: from where it stands to the origin (thesis 7.5.5.4)."""
+    record.values[keyword] = value
+    cos_zenith, sin_zenith = cosine_and_sine(record.number("ZENITH"))
+    cos_azimuth, sin_azimuth = cosine_and_sine(record.number("AZIMUTH"))
+    record.values["DIRECTION"] = (-sin_zenith * cos_azimuth, -sin_zenith * sin_azimuth, -cos_zenith)
+    record.places["DIRECTION"] = record.places[keyword]
+
+
+MEANING: dict[tuple[str, str], Meaning] = {
+    ("POLYGONS", "NOPHONG"): _off("PHONG"),
+    ("SOURCE", "POINT"): _off("INFINITE"),
+    **{(block, keyword): _between_points for block in ("SOURCE", "SUN") for keyword in ("FROM", "TO")},
+    **{(block, keyword): _on_the_sky for block in ("SOURCE", "SUN") for keyword in ("ZENITH", "AZIMUTH")},
+}

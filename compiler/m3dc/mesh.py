@@ -1,0 +1,148 @@
+"""From the tables of POLYGONS and TERRAIN to triangles with normals, checked (thesis 7.5.5.3)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .diagnostics import Findings
+from .transform import unit
+from .values import Mesh, Record, TableValue
+
+MOST_REPORTED = 20
+COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
+
+_NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+_BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32))
+
+
+def degenerate(u: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether edges U, V, shape (..., 3), span no plane: one is zero, or they are parallel."""
+    with np.errstate(all="ignore"):
+        size = np.maximum(np.abs(u).max(axis=-1), np.abs(v).max(axis=-1))[..., None]
+        u, v = u / size, v / size
+        ux, uy, uz = u[..., 0], u[..., 1], u[..., 2]
+        vx, vy, vz = v[..., 0], v[..., 1], v[..., 2]
+        cross = (uy * vz - uz * vy) ** 2 + (uz * vx - ux * vz) ** 2 + (ux * vy - uy * vx) ** 2
+        lengths = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz)
+        return ~(cross > COLLINEAR**2 * lengths)
+
+
+def polygons(record: Record, findings: Findings, *, whole: bool) -> None:
+    """Make the mesh of a POLYGONS record from its tables; where it has not both, say so if it must be `whole`."""
+    facets = record.tables.get("FACETS") or record.tables.get("SFACETS")
+    vertices = record.tables.get("VERTICES")
+    if record.mesh is not None or record.broken:
+        return
+    if facets is None or vertices is None:
+        if whole:
+            missing = "FACETS" if vertices is not None else "VERTICES"
+            findings.add_at("M3D0304", record.span, f"POLYGONS needs a {missing} table", fill=missing)
+        return
+    sound = _counted(vertices, vertices.head[0], "VERTICES", findings)
+    sound &= _counted(facets, facets.head[0], "FACETS", findings)
+    if sound and vertices.head[0] < 3:
+        findings.add_at("M3D0407", vertices.span, "at least 3 vertices make a facet")
+        sound = False
+    if sound and facets.head[0] < 1:
+        findings.add_at("M3D0408", facets.span, "at least one facet must be there")
+        sound = False
+    record.mesh = (_faceted(vertices, facets, findings) if sound else None) or _BROKEN
+
+
+def _counted(table: TableValue, count: int, keyword: str, findings: Findings) -> bool:
+    """Whether a table has as many rows as it says."""
+    rows = len(table.rows)
+    if rows > count:
+        at = int(table.offsets[max(count, 0)])
+        findings.add_at("M3D0405", (at, at + 1), f"{count} specified, {rows} found", fill=keyword)
+    elif rows < count:
+        end = table.span[1]
+        findings.add_at("M3D0406", (end - 1, end), f"{count} specified, {rows} found", fill=keyword)
+    return rows == count
+
+
+def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Mesh | None:
+    positions = vertices.rows
+    indices = facets.rows[:, :3]
+    undefined = ((indices <= -1) | (indices >= len(positions))).any(axis=1)
+    if undefined.any():
+        for row in np.flatnonzero(undefined)[:MOST_REPORTED]:
+            at = int(facets.offsets[row])
+            shown = " ".join(f"{i:g}" for i in indices[row])
+            detail = f"facet {row} uses {shown}; vertices are numbered 0 to {len(positions) - 1}"
+            findings.add_at("M3D0305", (at, at + 1), detail)
+        return None
+    corners = indices.astype(np.int32)
+    flat = degenerate(
+        positions[corners[:, 2]] - positions[corners[:, 1]],
+        positions[corners[:, 0]] - positions[corners[:, 1]],
+    )
+    if flat.any():
+        for row in np.flatnonzero(flat)[:MOST_REPORTED]:
+            at = int(facets.offsets[row])
+            detail = f"the corners of facet {row} lie on a line; three points not on a line make a triangle"
+            findings.add_at("M3D0403", (at, at + 1), detail)
+        return None
+    normals, normal_rows = _NO_NORMALS
+    if facets.rows.shape[1] > 3:
+        normals = facets.rows[:, 3:].reshape(-1, 3)
+        zero = ~normals.any(axis=1)
+        if zero.any():
+            row = int(np.flatnonzero(zero)[0]) // 3
+            at = int(facets.offsets[row])
+            findings.add_at("M3D0404", (at, at + 1), f"a normal of facet {row} is zero")
+            return None
+        normals = unit(normals)
+        normal_rows = np.arange(len(normals), dtype=np.int32).reshape(-1, 3)
+    return Mesh(positions, corners, normals, normal_rows, facets.offsets)
+
+
+def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
+    """Make the mesh of a TERRAIN record: two facets a cell, and normals by the gradient of the grid."""
+    table = record.tables.get("VERTICES")
+    if record.mesh is not None or record.broken:
+        return
+    if table is None:
+        if whole:
+            findings.add_at("M3D0304", record.span, "TERRAIN needs a VERTICES table", fill="VERTICES")
+        return
+    rows, columns = table.head
+    record.mesh = _BROKEN
+    if rows < 2 or columns < 2:
+        findings.add_at("M3D0408", table.span, f"a grid has at least 2 rows and 2 columns, not {rows} and {columns}")
+        return
+    if not _counted(table, rows * columns, "VERTICES", findings):
+        return
+    record.mesh = _grid(table, rows, columns, findings) or _BROKEN
+
+
+def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mesh | None:
+    grid = table.rows.reshape(rows, columns, 3)
+    # Each cell: a near corner, b along the rows (x), c opposite, d along the columns (y).
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    area = np.cross(c - a, d - b)
+    axis = int(np.abs(area.sum(axis=(0, 1))).argmax())
+    upwards = float(np.sign(area[..., axis].sum()) or 1.0)
+    corner_areas = [np.cross(q - p, r - q)[..., axis] for p, q, r in ((a, b, c), (a, c, d), (b, c, d), (a, b, d))]
+    crossed = ~(np.minimum.reduce(corner_areas) * upwards > 0) & ~(np.maximum.reduce(corner_areas) * upwards < 0)
+    crossed |= np.minimum.reduce([corner * upwards for corner in corner_areas]) <= 0
+    if crossed.any():
+        row, column = (int(i) for i in np.argwhere(crossed)[0])
+        at = int(table.offsets[row * columns + column])
+        detail = f"the cell at row {row + 1}, column {column + 1} folds over another"
+        findings.add_at("M3D0409", (at, at + 1), detail)
+        return None
+    number = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    na, nb, nc, nd = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    if upwards < 0:
+        nb, nd = nd, nb
+    facets = np.stack([np.stack([na, nb, nc], -1), np.stack([na, nc, nd], -1)], axis=2).reshape(-1, 3)
+    normals = unit(np.cross(_along(grid, 0), _along(grid, 1)) * upwards).reshape(-1, 3)
+    offsets = np.repeat(table.offsets[na.ravel()], 2)
+    return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets)
+
+
+def _along(grid: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Central differences of the points along one axis of the grid; one-sided at its edges."""
+    return np.gradient(grid, axis=axis)

@@ -1,0 +1,74 @@
+"""The checked program: what is right of the syntax tree, each node bound to its entry in the language table.
+
+Whoever reads it need not ask whether a keyword may stand where it stands, whether an argument has the right shape, or
+whether a name is declared with the right type: what did not pass is not in it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+from tree_sitter_m3d import TableData
+from tree_sitter_m3d import table as language
+
+from .ast import Argument, Keyword, Name
+from .ir import Span
+
+
+class Statement(NamedTuple):
+    entry: language.Statement
+    arguments: tuple[Argument, ...]
+    span: Span
+
+
+class Table(NamedTuple):
+    """A table's numbers: `bulk` read at once, when its item began at byte `origin`; or as arguments, a tuple a row.
+
+    A `broken` one could not be read; it is here so that nobody reports it missing.
+    """
+
+    entry: language.Table
+    bulk: TableData | None
+    origin: int
+    head: tuple[Argument, ...]
+    rows: tuple[tuple[Argument, ...], ...]
+    keyword: Keyword
+    span: Span
+    broken: bool = False
+
+
+class Block(NamedTuple):
+    """A block; `source` is the variable it is a copy of, `body` what then changes it."""
+
+    entry: language.Block
+    source: Name | None
+    body: tuple[Member, ...]
+    keyword: Keyword
+    span: Span
+
+
+Member: TypeAlias = Statement | Table | Block
+
+
+class Declaration(NamedTuple):
+    """A variable with its type: a key of the language table's basics or blocks."""
+
+    name: Name
+    type: str
+
+
+class Assignment(NamedTuple):
+    """`value` for a NUMBER or VECTOR; for a structure, `value` is the variable copied and `body` what changes it."""
+
+    target: Name
+    type: str
+    value: Argument | None
+    body: tuple[Member, ...] | None
+    span: Span
+
+
+class Item(NamedTuple):
+    """One top-level item and the byte it starts at; the spans below it are relative to that."""
+
+    start: int
+    content: tuple[Declaration, ...] | Assignment | Block

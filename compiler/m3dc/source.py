@@ -1,0 +1,52 @@
+"""A scene's text: bytes, and where they stand in lines and columns."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
+
+class Position(NamedTuple):
+    """A place as people count it: line and column from 1, the column in characters."""
+
+    line: int
+    column: int
+
+
+class Source:
+    """The text of one scene. Offsets everywhere in the compiler are byte offsets into `data`.
+
+    A UTF-8 byte order mark is read as white space, so that offsets stay those of the file.
+    """
+
+    def __init__(self, data: bytes, name: str = "") -> None:
+        if data.startswith(BYTE_ORDER_MARK):
+            data = b"   " + data[3:]
+        self.data = data
+        self.name = name
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        newlines = np.flatnonzero(np.frombuffer(self.data, np.uint8) == 0x0A)
+        return [0, *(newlines + 1).tolist()]
+
+    def position(self, offset: int) -> Position:
+        """Line and column of the character at a byte offset, which may be the end of the text."""
+        line = bisect_right(self._line_starts, offset)
+        start = self._line_starts[line - 1]
+        return Position(line, len(self.data[start:offset].decode("utf-8", "replace")) + 1)
+
+    def line(self, number: int) -> str:
+        """The text of a line, counted from 1, without its end."""
+        start = self._line_starts[number - 1]
+        end = self._line_starts[number] if number < len(self._line_starts) else len(self.data)
+        return self.data[start:end].decode("utf-8", "replace").rstrip("\r\n")
+
+    def text(self, start: int, end: int) -> str:
+        """The characters of a range of bytes."""
+        return self.data[start:end].decode("utf-8", "replace")

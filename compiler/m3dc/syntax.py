@@ -1,0 +1,220 @@
+"""From text to syntax tree: `parse` takes any text and gives the items that can be read, and what is wrong in form.
+
+tree-sitter builds the tree, whatever the text. Where it met an error, the formal grammar is run over that stretch to
+say exactly where the text stops being a sentence, and what could stand there (syntax_errors.py).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+from tree_sitter import Language, Node, Parser, Tree
+
+import tree_sitter_m3d
+from tree_sitter_m3d.table import LANGUAGE
+
+from . import ast
+from .diagnostics import Findings
+from .ir import Span
+from .source import Source
+
+# Deeper than any scene needs (SOLID > SURFACE > TEXTURE > CHECKER > TRANSFORM), and less than Python's stack allows.
+DEEPEST = 40
+
+_GRAMMAR = Language(tree_sitter_m3d.language())
+_NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
+_CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
+
+
+class Syntax(NamedTuple):
+    """A parsed scene: its concrete tree, and the top-level items as abstract ones. `faulty` are the starts of the
+    items that hold a syntax error and so may be incomplete."""
+
+    tree: Tree
+    items: tuple[ast.TopLevel, ...]
+    faulty: frozenset[int]
+
+
+def parse(source: Source, findings: Findings) -> Syntax:
+    """Read a scene. Never raises on any text; what is wrong goes into `findings`."""
+    tree = Parser(_GRAMMAR).parse(source.data)
+    control = _CONTROL.search(source.data)
+    if control is not None:
+        found = f"it holds the byte {control.group()[0]:#04x}"
+        findings.add("M3D0113", control.span(), f"{found}; a scene is plain text, in UTF-8 or ASCII")
+        return Syntax(tree, (), frozenset())
+    items: list[ast.TopLevel] = []
+    faulty: list[Node] = []
+    only_comments = True
+    for node in tree.root_node.children:
+        if node.type == "comment":
+            continue
+        only_comments = False
+        if node.has_error or node.is_missing:
+            faulty.append(node)
+        findings.base = node.start_byte
+        item = _Builder(source.data, findings, node.start_byte).item(node, 0)
+        if item is not None:
+            items.append(ast.TopLevel(node.start_byte, item))
+    findings.base = 0
+    unclosed = _unclosed_comment(source.data)
+    if unclosed is not None:
+        findings.add("M3D0105", (unclosed, unclosed + 2), "this comment is never closed with */")
+    elif only_comments:
+        findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
+    elif faulty:
+        from .syntax_errors import report
+
+        report(source, tree.root_node, faulty, findings)
+    return Syntax(tree, tuple(items), frozenset(node.start_byte for node in faulty))
+
+
+_DELIMITER = re.compile(rb"/\*|\*/")
+
+
+def _unclosed_comment(data: bytes) -> int | None:
+    """Where the comment opens that is never closed, if any: the outermost one."""
+    depth = 0
+    opened = 0
+    for match in _DELIMITER.finditer(data):
+        if match.group() == b"/*":
+            if depth == 0:
+                opened = match.start()
+            depth += 1
+        elif depth:
+            depth -= 1
+    return opened if depth else None
+
+
+class _Builder:
+    """Makes abstract nodes of concrete ones, with spans relative to `base`."""
+
+    def __init__(self, data: bytes, findings: Findings, base: int) -> None:
+        self._data = data
+        self._findings = findings
+        self._base = base
+
+    def _span(self, node: Node) -> Span:
+        return node.start_byte - self._base, node.end_byte - self._base
+
+    def _text(self, node: Node) -> str:
+        return self._data[node.start_byte : node.end_byte].decode("utf-8", "replace")
+
+    def _fields(self, node: Node) -> dict[str, list[Node]]:
+        fields: dict[str, list[Node]] = {}
+        cursor = node.walk()
+        if cursor.goto_first_child():
+            while True:
+                name = cursor.field_name
+                if name is not None and cursor.node is not None and not cursor.node.is_missing:
+                    fields.setdefault(name, []).append(cursor.node)
+                if not cursor.goto_next_sibling():
+                    break
+        return fields
+
+    def item(self, node: Node, depth: int) -> ast.Item | None:
+        """The item of a node, or None where there is too little of it."""
+        if depth > DEEPEST:
+            self._findings.add("M3D0111", self._span(node), f"no scene needs more than {DEEPEST} levels")
+            return None
+        fields = self._fields(node)
+        keyword = self._keyword(fields)
+        match node.type:
+            case "statement" if keyword:
+                return ast.Statement(keyword, self._arguments(fields.get("argument", ())), self._span(node))
+            case "block" if keyword:
+                return ast.Block(keyword, self._name(fields, "name"), self._body(fields, depth), self._span(node))
+            case "table" if keyword:
+                data = fields.get("data")
+                entries = self._arguments(fields.get("entry", ()))
+                return ast.Table(keyword, self._span(data[0]) if data else None, entries, self._span(node))
+            case "variables" if keyword:
+                declarations = tuple(self._declaration(child) for child in node.children if child.type == "declaration")
+                return ast.Variables(keyword, tuple(d for d in declarations if d is not None), self._span(node))
+            case "assignment":
+                target = self._name(fields, "target")
+                values = self._arguments([*fields.get("value", ()), *fields.get("source", ())])
+                body = self._body(fields, depth)
+                if target is None or (not values and body is None):
+                    return None
+                return ast.Assignment(target, values[0] if values else None, body, self._span(node))
+            case _:
+                return None
+
+    def _keyword(self, fields: dict[str, list[Node]]) -> ast.Keyword | None:
+        nodes = fields.get("keyword")
+        return ast.Keyword(nodes[0].type, self._span(nodes[0])) if nodes else None
+
+    def _body(self, fields: dict[str, list[Node]], depth: int) -> ast.Body | None:
+        nodes = fields.get("body")
+        if not nodes:
+            return None
+        items = (self.item(child, depth + 1) for child in nodes[0].named_children if child.type != "comment")
+        return ast.Body(tuple(item for item in items if item is not None), self._span(nodes[0]))
+
+    def _name(self, fields: dict[str, list[Node]], field: str) -> ast.Name | None:
+        nodes = fields.get(field)
+        return self._identifier(nodes[0]) if nodes else None
+
+    def _identifier(self, node: Node) -> ast.Name:
+        name = ast.Name(self._text(node), self._span(node))
+        longest = LANGUAGE.limits["identifier"]
+        if len(name.text) > longest:
+            self._findings.add("M3D0110", name.span, f"at most {longest} characters, not {len(name.text)}")
+        return name
+
+    def _declaration(self, node: Node) -> ast.Declaration | None:
+        fields = self._fields(node)
+        types = fields.get("type")
+        if not types:
+            return None
+        kind = types[0]
+        type_: ast.Keyword | ast.Name = (
+            self._identifier(kind) if kind.type == "identifier" else ast.Keyword(kind.type, self._span(kind))
+        )
+        names = tuple(self._identifier(n) for n in fields.get("name", ()))
+        return ast.Declaration(type_, names, self._span(node))
+
+    def _arguments(self, nodes: list[Node] | tuple[()]) -> tuple[ast.Argument, ...]:
+        arguments = (self._argument(node) for node in nodes)
+        return tuple(argument for argument in arguments if argument is not None)
+
+    def _argument(self, node: Node) -> ast.Argument | None:
+        match node.type:
+            case "number":
+                return self._number(node)
+            case "identifier":
+                return self._identifier(node)
+            case "vector":
+                components = self._arguments(self._fields(node).get("component", []))
+                scalars = tuple(c for c in components if not isinstance(c, ast.Vector))
+                return ast.Vector(scalars, self._span(node)) if len(scalars) == 3 else None
+            case _:
+                return None
+
+    def _number(self, node: Node) -> ast.Number:
+        text = self._data[node.start_byte : node.end_byte]
+        match = _NUMBER.match(text)
+        end = match.end() if match else 0
+        start, stop = self._span(node)
+        if end < len(text):
+            self._findings.add("M3D0104", (start + end, stop), _digit_detail(text, end))
+            return ast.Number(math.nan, (start, stop))
+        value = float(text)
+        if value in (float("inf"), float("-inf")):
+            self._findings.add("M3D0114", (start, stop), "the largest number is about 1.8e308")
+            value = math.nan
+        return ast.Number(value, (start, stop))
+
+
+def _digit_detail(text: bytes, end: int) -> str:
+    """Why a numeral is not one: `text` stops being a numeral at `end`."""
+    shown = text.decode("ascii", "replace")
+    rest = text[end : end + 1]
+    if rest == b"." or end == 0:
+        return f"a digit must stand on both sides of the point in {shown!r}"
+    if rest in b"eE" and text[end + 1 :].strip(b"+-0123456789") == b"":
+        return f"the exponent in {shown!r} has no digits"
+    return f"{shown!r} is not a number; a space must stand between a number and what follows it"

@@ -1,0 +1,132 @@
+"""Transformations: 4x4 matrices that act on row vectors, P' = P M, each with its inverse (thesis 3.6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .ir import Triple
+
+Matrix = NDArray[np.float64]
+
+
+class Transform(NamedTuple):
+    """A matrix and its inverse. The inverse is built along with it, so that it is exact where each step's is."""
+
+    matrix: Matrix
+    inverse: Matrix
+
+    def then(self, other: Transform) -> Transform:
+        """This transformation followed by another: M = self other."""
+        return Transform(self.matrix @ other.matrix, other.inverse @ self.inverse)
+
+    def points(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points, shape (..., 3), moved."""
+        return points @ self.matrix[:3, :3] + self.matrix[3, :3]
+
+    def vectors(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Differences of points, shape (..., 3), moved."""
+        return vectors @ self.matrix[:3, :3]
+
+    def normals(self, normals: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Normals, shape (..., 3), moved: by the transpose of the inverse. Not normalised."""
+        return normals @ self.inverse[:3, :3].T
+
+    def length(self) -> float:
+        """The largest factor by which a row of the 3x3 part stretches: what a sphere's radius grows by (7.5.5.2)."""
+        return float(np.sqrt((self.matrix[:3, :3] ** 2).sum(axis=1).max()))
+
+
+IDENTITY = Transform(np.eye(4), np.eye(4))
+
+
+def _affine(linear: Matrix, offset: Triple = (0.0, 0.0, 0.0)) -> Matrix:
+    matrix = np.eye(4)
+    matrix[:3, :3] = linear
+    matrix[3, :3] = offset
+    return matrix
+
+
+def translate(x: float, y: float, z: float) -> Transform:
+    """Thesis 3.6.1."""
+    return Transform(_affine(np.eye(3), (x, y, z)), _affine(np.eye(3), (-x, -y, -z)))
+
+
+def scale(x: float, y: float, z: float) -> Transform:
+    """Thesis 3.6.2. No factor may be 0."""
+    return Transform(_affine(np.diag((x, y, z))), _affine(np.diag((1 / x, 1 / y, 1 / z))))
+
+
+def cosine_and_sine(degrees: float) -> tuple[float, float]:
+    """Exact at the multiples of 90 degrees, where radians would leave a trace of 1e-17."""
+    quarter, rest = divmod(degrees, 90.0)
+    c, s = (1.0, 0.0) if rest == 0.0 else (math.cos(math.radians(rest)), math.sin(math.radians(rest)))
+    for _ in range(int(quarter) % 4):
+        c, s = -s, c
+    return c + 0.0, s + 0.0
+
+
+def _rotation(rows: Callable[[float, float], list[list[float]]], degrees: float) -> Transform:
+    c, s = cosine_and_sine(degrees)
+    matrix = _affine(np.array(rows(c, s)))
+    return Transform(matrix, matrix.T.copy())
+
+
+def rotate_x(degrees: float) -> Transform:
+    """From y towards z (thesis 3.6.3)."""
+    return _rotation(lambda c, s: [[1, 0, 0], [0, c, s], [0, -s, c]], degrees)
+
+
+def rotate_y(degrees: float) -> Transform:
+    """From z towards x (thesis 3.6.3)."""
+    return _rotation(lambda c, s: [[c, 0, -s], [0, 1, 0], [s, 0, c]], degrees)
+
+
+def rotate_z(degrees: float) -> Transform:
+    """From x towards y (thesis 3.6.3)."""
+    return _rotation(lambda c, s: [[c, s, 0], [-s, c, 0], [0, 0, 1]], degrees)
+
+
+def rotate(x: float, y: float, z: float) -> Transform:
+    """About x, then y, then z (thesis 7.5.5.2, ROTATE)."""
+    return rotate_x(x).then(rotate_y(y)).then(rotate_z(z))
+
+
+def _on_axis(step: Callable[[float, float, float], Transform], axis: int, rest: float) -> Callable[..., Transform]:
+    """A step along or about one axis alone, the other two being at `rest`."""
+
+    def single(amount: float) -> Transform:
+        amounts = [rest] * 3
+        amounts[axis] = amount
+        return step(*amounts)
+
+    return single
+
+
+# What each statement of a TRANSFORM block does with its numbers; a vector counts as three.
+STEPS: dict[str, Callable[..., Transform]] = {
+    "TRANSLATE": translate,
+    "TRANSX": _on_axis(translate, 0, 0.0),
+    "TRANSY": _on_axis(translate, 1, 0.0),
+    "TRANSZ": _on_axis(translate, 2, 0.0),
+    "SCALE": scale,
+    "SCALEX": _on_axis(scale, 0, 1.0),
+    "SCALEY": _on_axis(scale, 1, 1.0),
+    "SCALEZ": _on_axis(scale, 2, 1.0),
+    "ROTATE": rotate,
+    "ROTX": rotate_x,
+    "ROTY": rotate_y,
+    "ROTZ": rotate_z,
+}
+
+
+def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors, shape (..., 3), of length 1; a zero vector stays zero. Safe against over- and underflow."""
+    largest = np.abs(vector).max(axis=-1, keepdims=True)
+    scaled = vector / np.where(largest > 0, largest, 1.0)
+    norm = np.sqrt((scaled**2).sum(axis=-1, keepdims=True))
+    return scaled / np.where(norm > 0, norm, 1.0)

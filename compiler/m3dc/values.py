@@ -1,0 +1,120 @@
+"""What variables and members hold while a scene is evaluated: numbers, vectors, and records for structures."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tree_sitter_m3d.table import LANGUAGE, Default
+
+from .ir import Span
+from .transform import IDENTITY, Transform
+
+Vector: TypeAlias = tuple[float, float, float]
+Value: TypeAlias = "float | Vector | Record"
+
+
+class TableValue(NamedTuple):
+    """The numbers of a table: `rows` (n, width) as written, with the byte of the source each row starts at."""
+
+    head: tuple[int, ...]
+    rows: NDArray[np.float64]
+    offsets: NDArray[np.uint32]
+    span: Span
+
+
+class Mesh(NamedTuple):
+    """Triangular facets between vertices, in the primitive's own coordinates.
+
+    `facets` (m, 3) are rows of `vertices` (n, 3); `normals` (k, 3) unit vectors at the corners that `normal_rows`
+    (m, 3) name, both empty for flat facets; `offsets` (m) the byte of the source that each facet is written at.
+    """
+
+    vertices: NDArray[np.float64]
+    facets: NDArray[np.int32]
+    normals: NDArray[np.float64]
+    normal_rows: NDArray[np.int32]
+    offsets: NDArray[np.uint32]
+
+
+class Record:
+    """The value of a block: its members so far. All spans are of the whole text.
+
+    `values` are the statements' arguments by keyword (a flag is a bool), `places` where each was last written;
+    `nested` are the blocks there is one of (SURFACE, VIEW, ...), `parts` those there are many of (primitives,
+    textures, waves); `transform` is the product of all TRANSFORM blocks, or, for a TRANSFORM, its own. `broken` are
+    the tables that could not be read, of which no more is to be said; `mesh` is what VERTICES and FACETS make.
+    """
+
+    __slots__ = (
+        "block",
+        "broken",
+        "mesh",
+        "nested",
+        "parts",
+        "places",
+        "span",
+        "tables",
+        "transform",
+        "values",
+    )
+
+    def __init__(self, block: str, span: Span) -> None:
+        self.block = block
+        self.span = span
+        self.values: dict[str, Default] = dict(_DEFAULTS[block])
+        self.places: dict[str, Span] = {}
+        self.nested: dict[str, Record] = {}
+        self.parts: tuple[Record, ...] = ()
+        self.tables: dict[str, TableValue] = {}
+        self.transform: Transform = IDENTITY
+        self.broken: frozenset[str] = frozenset()
+        self.mesh: Mesh | None = None
+
+    def copy(self, span: Span) -> Record:
+        """An independent copy, as an assignment makes: a later change to the original does not reach it."""
+        new = Record.__new__(Record)
+        new.block = self.block
+        new.span = span
+        new.values = dict(self.values)
+        new.places = dict(self.places)
+        new.nested = {keyword: record.copy(record.span) for keyword, record in self.nested.items()}
+        new.parts = self.parts  # never changed once they are part of something
+        new.tables = dict(self.tables)
+        new.transform = self.transform
+        new.broken = self.broken
+        new.mesh = self.mesh
+        return new
+
+    def number(self, keyword: str) -> float:
+        value = self.values[keyword]
+        assert isinstance(value, (int, float))
+        return float(value)
+
+    def integer(self, keyword: str) -> int:
+        return int(self.number(keyword))
+
+    def flag(self, keyword: str) -> bool:
+        return bool(self.values.get(keyword, False))
+
+    def vector(self, keyword: str) -> Vector:
+        value = self.values[keyword]
+        assert isinstance(value, tuple)
+        x, y, z = value
+        return float(x), float(y), float(z)
+
+    def place(self, keyword: str) -> Span:
+        """Where a member was written, or the whole record where it was not."""
+        return self.places.get(keyword, self.span)
+
+    def member(self, block: str) -> Record:
+        """The nested block, with its default values where the scene has none."""
+        return self.nested.get(block) or Record(block, self.span)
+
+
+_DEFAULTS: dict[str, dict[str, Default]] = {
+    keyword: {s.keyword: s.default for s in block.statements.values() if s.default is not None}
+    for keyword, block in LANGUAGE.blocks.items()
+}

@@ -55,13 +55,11 @@ class Interval(NamedTuple):
     def __str__(self) -> str:
         if self.nonzero:
             return "any but 0"
-        if self.high == math.inf and self.low > -math.inf:
-            return f"{'>' if self.low_open else '>='} {self.low:g}"
-        if self.low == -math.inf:
-            return f"{'<' if self.high_open else '<='} {self.high:g}" if self.high < math.inf else "any"
-        return (
-            f"{'more than ' if self.low_open else ''}{self.low:g} to {'less than ' if self.high_open else ''}{self.high:g}"
-        )
+        low = f"{'more than' if self.low_open else 'at least'} {self.low:g}" if self.low > -math.inf else ""
+        high = f"{'less than' if self.high_open else 'at most'} {self.high:g}" if self.high < math.inf else ""
+        if low and high and not self.low_open and not self.high_open:
+            return f"{self.low:g} to {self.high:g}"
+        return " and ".join(bound for bound in (low, high) if bound) or "any"
 
 
 class Bounds(NamedTuple):

@@ -1,3 +1,4 @@
+// Generated from language.toml by `make generate`.
 export default {
   "all": [
     "AMBIENT",
@@ -231,4 +232,4 @@ export default {
     "SFACETS",
     "VERTICES"
   ]
-}
+};

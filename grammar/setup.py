@@ -1,10 +1,26 @@
-"""Builds the C extension: the generated parser, its scanner and the reader of big tables."""
+"""Builds the C extension (parser, scanner, reader of big tables), and takes the grammar's data into the package."""
 
 import sys
+from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_py import build_py
+
+
+class BuildWithData(build_py):
+    """Adds to the package what lies beside it in the source tree: the formal grammar and the queries."""
+
+    def run(self) -> None:
+        super().run()
+        if not self.editable_mode:
+            package = Path(self.build_lib, "tree_sitter_m3d")
+            (package / "queries").mkdir(parents=True, exist_ok=True)
+            for file in ["m3d.lark", *map(str, Path("queries").glob("*.scm"))]:
+                self.copy_file(file, str(package / file))
+
 
 setup(
+    cmdclass={"build_py": BuildWithData},
     ext_modules=[
         Extension(
             "tree_sitter_m3d._binding",

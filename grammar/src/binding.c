@@ -45,7 +45,7 @@ static int read_rows(TableReader *reader, PyObject *rows, PyObject *offsets, siz
 }
 
 PyDoc_STRVAR(read_table_doc,
-             "read_table(source, start, end, head, row) -> (head, rows, offsets, stopped_at, expected)\n\n"
+             "read_table(source, start, end, head, row) -> (head, rows, offsets, offset_size, stopped_at, expected)\n\n"
              "See tree_sitter_m3d.bulk.read_table.");
 
 static PyObject *read_table(PyObject *module, PyObject *arguments) {
@@ -83,7 +83,8 @@ static PyObject *read_table(PyObject *module, PyObject *arguments) {
         PyObject *value = PyFloat_FromDouble(head_values[i]);
         if (!value || PyTuple_SetItem(head, (Py_ssize_t)i, value) < 0) goto done;
     }
-    result = Py_BuildValue("OOOnz", head, rows, offsets, (Py_ssize_t)(reader.at - reader.text), reader.expected);
+    result = Py_BuildValue("OOOnnz", head, rows, offsets, (Py_ssize_t)offset_size,
+                           (Py_ssize_t)(reader.at - reader.text), reader.expected);
 
 done:
     Py_XDECREF(head);

@@ -6,16 +6,28 @@
 - `language()` is the tree-sitter language; `HIGHLIGHTS_QUERY`, `FOLDS_QUERY`, `INDENTS_QUERY`, `LOCALS_QUERY` and
   `TAGS_QUERY` are the texts of its queries.
 - `read_table` reads the numbers of a big table.
+- `blank_comments` makes spaces of comments.
 - `tree_sitter_m3d.table.LANGUAGE` describes every block and statement.
 - `tree_sitter_m3d.formal` says where a text stops being a sentence of the language, and what could stand there.
+
+Everything is loaded when it is first asked for, so that the table can be read without the compiled part.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from ._binding import language
-from .bulk import Stop, TableData, read_table
+if TYPE_CHECKING:
+    from ._binding import language
+    from .bulk import Stop, TableData, read_table
+    from .comments import blank_comments
+
+    FOLDS_QUERY: str
+    HIGHLIGHTS_QUERY: str
+    INDENTS_QUERY: str
+    LOCALS_QUERY: str
+    TAGS_QUERY: str
 
 __all__ = [
     "FOLDS_QUERY",
@@ -25,25 +37,31 @@ __all__ = [
     "TAGS_QUERY",
     "Stop",
     "TableData",
+    "blank_comments",
     "language",
     "read_table",
 ]
 
-FOLDS_QUERY: str
-HIGHLIGHTS_QUERY: str
-INDENTS_QUERY: str
-LOCALS_QUERY: str
-TAGS_QUERY: str
+_MODULES = {
+    "Stop": "bulk",
+    "TableData": "bulk",
+    "blank_comments": "comments",
+    "language": "_binding",
+    "read_table": "bulk",
+}
 
 
-def __getattr__(name: str) -> str:
-    """The text of a query, read when it is first asked for."""
-    if name not in __all__ or not name.endswith("_QUERY"):
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        value = getattr(import_module(f".{_MODULES[name]}", __name__), name)
+    elif name in __all__:
+        from .files import data_file
+
+        value = data_file(f"queries/{name.removesuffix('_QUERY').lower()}.scm").read_text(encoding="utf-8")
+    else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    file = Path(__file__).with_name("queries") / f"{name.removesuffix('_QUERY').lower()}.scm"
-    text = file.read_text(encoding="utf-8")
-    globals()[name] = text
-    return text
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, cast
+from typing import Literal, NamedTuple, cast
 
 from ._binding import read_table as _read_table
-
-if TYPE_CHECKING:
-    from typing_extensions import Buffer
 
 Expected = Literal["number", "digit", "space", "<", ",", ">", "*/"]
 
@@ -31,16 +28,13 @@ class TableData(NamedTuple):
     """
 
     head: tuple[float, ...]
-    rows: memoryview
-    offsets: memoryview
+    rows: memoryview[float]
+    offsets: memoryview[int]
     width: int
     stop: Stop | None
 
-    def __len__(self) -> int:
-        return len(self.offsets)
 
-
-def read_table(source: Buffer, start: int, end: int, head: str, row: str) -> TableData:
+def read_table(source: bytes | bytearray | memoryview, start: int, end: int, head: str, row: str) -> TableData:
     """Reads the numbers of `source[start:end]`: the head once, then rows.
 
     A layout has an `n` for each number and a `v` for each vector `< x, y, z >`: POLYGONS' SFACETS are `"n"` and
@@ -50,16 +44,11 @@ def read_table(source: Buffer, start: int, end: int, head: str, row: str) -> Tab
     >>> read_table(b"2  0 1 2  2 1 0", 0, 15, "n", "nnn").rows.tolist()
     [0.0, 1.0, 2.0, 2.0, 1.0, 0.0]
     """
-    values, rows, offsets, at, expected = _read_table(source, start, end, head, row)
-    size = len(offsets) // max(len(rows) // (8 * _width(row)), 1)
+    values, rows, offsets, offset_size, at, expected = _read_table(source, start, end, head, row)
     return TableData(
         values,
         memoryview(rows).cast("d"),
-        memoryview(offsets).cast("Q" if size == 8 else "I"),
-        _width(row),
+        memoryview(offsets).cast("Q" if offset_size == 8 else "I"),
+        len(row) + 2 * row.count("v"),
         None if expected is None else Stop(at, cast(Expected, expected)),
     )
-
-
-def _width(layout: str) -> int:
-    return len(layout) + 2 * layout.count("v")

@@ -1,0 +1,231 @@
+"""The language reference in docs/language: a page for each part of the language, and an index."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from string import Template
+from typing import NamedTuple
+
+from tree_sitter_m3d.table import Argument, Block, Bounds, Default, Language, Statement, Table
+
+HEADER = "<!-- Generated from grammar/language.toml by `make generate`. -->\n"
+
+
+class Page(NamedTuple):
+    """A page: the file, the title, the section of the thesis whose blocks it describes, and its first sentence."""
+
+    name: str
+    title: str
+    section: str
+    says: str
+
+
+PAGES = (
+    Page("scene", "The scene", "7.5.5.1", "What is neither a light nor a solid: camera, ambient light, air and sky."),
+    Page("transformations", "Transformations", "7.5.5.2", "How objects, primitives and textures are placed."),
+    Page("primitives", "Primitives", "7.5.5.3", "The shapes that solids and visible lights are built of."),
+    Page("attributes", "Attributes", "7.5.5.4", "How solids look, and how lights shine."),
+    Page("objects", "Objects", "7.5.5.5", "The things in a scene: solids and lights."),
+)
+
+ASSIGNMENTS = """\
+A variable gets its value outside the blocks of the file, in one of these forms:
+
+| form | meaning |
+|---|---|
+| `name = 3.5` | a `NUMBER` variable becomes this number |
+| `name = < x, 0, 1 >` | a `VECTOR` variable becomes this vector; a component may be a `NUMBER` variable |
+| `name = other` | a copy of another variable of the same type |
+| `name = { ... }` | a variable of any other type is modified by the statements of such a block |
+| `name = other { ... }` | first a copy, then modified |
+
+In the same way `KEYWORD name` and `KEYWORD name { ... }` use a variable in a block.
+
+Statements are carried out in the order of the file, and values are copied: a later change of a variable does not reach
+what was made with it before. A name begins with a letter, goes on with letters, digits and underscores, has at most
+$identifier characters and is not a keyword.
+"""
+
+
+def pages(language: Language) -> dict[str, str]:
+    """The text of every page by the name of its file."""
+    texts = {f"{page.name}.md": _page(language, page) for page in PAGES}
+    return {"README.md": _index(language), "variables.md": _variables(language), **texts}
+
+
+# --- pages ------------------------------------------------------------------------------------------------------
+
+
+def _page(language: Language, page: Page) -> str:
+    blocks = [block for block in language.blocks.values() if block.thesis == page.section]
+    parts = [f"{HEADER}\n# {page.title}\n\n{page.says} Thesis: {page.section}.\n"]
+    shared: list[Block] = []
+    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+        parts.append(_block(language, block))
+        if not block.uses:
+            parts += _members(block)
+            continue
+        shared.append(block)
+        if following is None or not following.uses or following.members() != block.members():
+            parts.append(_shared(shared))
+            shared = []
+    return "\n".join(parts)
+
+
+def _shared(blocks: Sequence[Block]) -> str:
+    """The statements of blocks that have the same ones."""
+    names = _listed(block.keyword for block in blocks)
+    return f"## Statements of {names}\n\nEach may hold all of these, and says which it uses.\n\n" + "\n".join(
+        _members(blocks[0])
+    )
+
+
+def _block(language: Language, block: Block) -> str:
+    places = language.parents.get(block.keyword, ())
+    where = [f"in {_links(language, places)}"] if places else []
+    if block.keyword in language.top:
+        where.append("at top level")
+    facts = [f"Stands {' and '.join(where)}."]
+    if block.holds:
+        facts.append(f"Holds {_links(language, block.holds)}.")
+    if block.uses:
+        facts.append(f"Uses {_listed(f'`{keyword}`' for keyword in block.uses)}.")
+    if block.variable:
+        facts.append("A variable type.")
+    if block.adds:
+        facts.append("Any number of them.")
+    if block.once:
+        facts.append(f"Only one: *{block.once}*.")
+    return f"## {block.keyword}\n\n{block.says}\n\n```m3d\n{block.example}\n```\n\n{' '.join(facts)}\n"
+
+
+def _members(block: Block) -> list[str]:
+    parts = [_statement(statement) for statement in block.statements.values()]
+    return parts + [_table(table) for table in block.tables.values()]
+
+
+def _statement(statement: Statement) -> str:
+    arguments = ", ".join(f"*{argument.name}*" for argument in statement.arguments)
+    facts = [_takes(statement.arguments)] if statement.arguments else []
+    if default := _default(statement.default):
+        facts.append(default)
+    bounds = [statement.bounds] if statement.bounds else [argument.bounds for argument in statement.arguments]
+    facts += dict.fromkeys(_bounds(bound) for bound in bounds if bound)
+    head = f"### `{statement.keyword}` {arguments}".rstrip()
+    lines = "".join(f"- {fact}\n" for fact in [*facts, f"Thesis: {statement.thesis}"])
+    return f"{head}\n\n{statement.says}\n\n{lines}"
+
+
+def _table(table: Table) -> str:
+    head = f"first {_takes(table.head, capital=False)}; " if table.head else ""
+    facts = [f"Holds {head}rows of {_takes(table.row, capital=False)}", f"Thesis: {table.thesis}"]
+    facts[1:1] = dict.fromkeys(
+        f"`{argument.name}`: {_bounds(argument.bounds, capital=False)}"
+        for argument in (*table.head, *table.row)
+        if argument.bounds
+    )
+    lines = "".join(f"- {fact}\n" for fact in facts)
+    return f"### `{table.keyword}` {{ ... }}\n\n{table.says}\n\n{lines}"
+
+
+def _variables(language: Language) -> str:
+    types = [f"| `{basic.keyword}` | {basic.says} | {_value(basic.default)} |" for basic in language.basics.values()]
+    for block in language.blocks.values():
+        if block.variable:
+            types.append(f"| {_link(language, block.keyword)} | {block.says} | an empty block |")
+    return "\n".join(
+        [
+            f"{HEADER}\n# Variables\n\n{language.variables['says']} Thesis: {language.variables['thesis']}.\n",
+            f"```m3d\n{language.variables['example']}\n```\n",
+            "## Types\n\n| type | meaning | value until one is assigned |\n|---|---|---|",
+            *types,
+            "\n## Assignments\n",
+            Template(ASSIGNMENTS).substitute(language.limits),
+        ]
+    )
+
+
+def _index(language: Language) -> str:
+    blocks = language.blocks.values()
+    entries: list[str] = []
+    for keyword in sorted(language.keywords):
+        within = [block for block in blocks if keyword in block.statements or keyword in block.tables]
+        places = [_link(language, block.keyword) for block in within]
+        if keyword in language.blocks:
+            kind = f"block {_link(language, keyword)}"
+        elif keyword in language.basics:
+            kind = "[variable type](variables.md)"
+        elif keyword == "VARIABLES":
+            kind = "[declarations](variables.md)"
+        else:
+            kind = "reserved, without a meaning" if keyword in language.reserved else ""
+        use = f"in {', '.join(places)}" if places else ""
+        entries.append(f"| `{keyword}` | {'; '.join(part for part in (kind, use) if part)} |")
+    arguments = [
+        f"| {kind} | {argument.shape} | {argument.unit} | {argument.says} |"
+        for kind, argument in language.kinds.items()
+    ]
+    return "\n".join(
+        [
+            f"{HEADER}\n# Language reference\n\n{language.file_says} Thesis: 7.5.3.\n",
+            *(f"- [{page.title}]({page.name}.md): {page.says}" for page in PAGES),
+            "- [Variables](variables.md): names for numbers, vectors and whole blocks.",
+            "\nComments stand between `/*` and `*/`, and nest. Keywords are in capitals.\n",
+            "## Arguments\n\n| kind | shape | unit | meaning |\n|---|---|---|---|",
+            *arguments,
+            "\n## Keywords\n\n| keyword | where |\n|---|---|",
+            *entries,
+            "",
+        ]
+    )
+
+
+# --- phrases ----------------------------------------------------------------------------------------------------
+
+
+def _listed(words: Iterable[str]) -> str:
+    """`a, b and c`."""
+    *before, last = words
+    return f"{', '.join(before)} and {last}" if before else last
+
+
+def _link(language: Language, keyword: str) -> str:
+    section = language.blocks[keyword].thesis
+    page = next(page.name for page in PAGES if page.section == section)
+    return f"[`{keyword}`]({page}.md#{keyword.lower()})"
+
+
+def _links(language: Language, keywords: Iterable[str]) -> str:
+    return _listed(_link(language, keyword) for keyword in keywords)
+
+
+def _takes(arguments: Iterable[Argument], *, capital: bool = True) -> str:
+    words = [
+        f"{'an' if argument.shape == 'integer' else 'a'} {argument.shape} `{argument.name}`"
+        + (f" in {argument.unit}" if argument.unit else "")
+        for argument in arguments
+    ]
+    return f"{'Takes ' if capital else ''}{_listed(words)}"
+
+
+def _value(value: Default) -> str:
+    if isinstance(value, tuple):
+        numbers = ", ".join(f"{number:g}" for number in value)
+        return f"`< {numbers} >`" if len(value) == 3 else f"`{numbers}`"
+    return f"`{value:g}`"
+
+
+def _default(value: Default) -> str:
+    if value is None or value is False:
+        return ""
+    return "On by default" if value is True else f"Default: {_value(value)}"
+
+
+def _bounds(bounds: Bounds, *, capital: bool = True) -> str:
+    outside = {
+        "error": "anything else is an error",
+        "default": "anything else is replaced by the default, with a warning",
+        "limit": "anything else is replaced by the nearest of these, with a warning",
+        "warn": "anything else is taken, with a warning",
+    }[bounds.policy]
+    return f"{'Allowed' if capital else 'allowed'}: {bounds.interval}; {outside}: *{bounds.message}*"

@@ -1,0 +1,3 @@
+; Generated from language.toml by `make generate`.
+
+[(body) (variables) (table) (comment)] @fold

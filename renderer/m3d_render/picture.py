@@ -1,0 +1,134 @@
+"""Pictures in files: PNG (8 bits), TIFF (16 bits), EXR (32-bit floating point), and the three planar files of the
+1993 program, NAME.red.raw, NAME.green.raw and NAME.blue.raw (8 bits).
+
+A file is written beside its place and then moved there, so that a failed or interrupted write leaves what was
+there before. Values are stored as they are, without gamma.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+SUFFIXES = (".png", ".tif", ".tiff", ".exr", ".raw")
+"""The suffixes that name a format."""
+
+_T = TypeVar("_T")
+
+_CHANNELS = ("red", "green", "blue")
+
+
+class PictureError(OSError):
+    """A picture cannot be written where, or as, it was asked."""
+
+
+def write_picture(
+    path: str | os.PathLike[str], picture: NDArray[np.floating], metadata: Mapping[str, str] | None = None
+) -> list[Path]:
+    """Writes a picture (rows x columns x 3, 0..1) in the format of the path's suffix; returns the files written."""
+    target = Path(path)
+    check_suffix(target)
+    if target.suffix.lower() == ".raw":
+        return _write_planes(target, picture)
+    with _replacing([target]) as (temporary,):
+        _write_image(temporary, picture, metadata or {})
+    return [target]
+
+
+def check_suffix(target: Path) -> None:
+    """Refuses a path whose suffix names no format."""
+    if target.suffix.lower() not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        found = f"'{target.suffix}'" if target.suffix else "no suffix"
+        raise PictureError(f"{target}: {found}, where one of {known} must name the picture's format")
+
+
+def plane_paths(target: Path) -> list[Path]:
+    """The three files of a .raw picture."""
+    return [target.with_name(f"{target.stem}.{channel}{target.suffix}") for channel in _CHANNELS]
+
+
+def to_bytes(picture: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """Values in 8 bits: 255 v, rounded."""
+    return np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
+
+
+def _write_planes(target: Path, picture: NDArray[np.floating]) -> list[Path]:
+    planes = plane_paths(target)
+    values = to_bytes(picture)
+    with _replacing(planes) as temporaries:
+        for channel, temporary in enumerate(temporaries):
+            temporary.write_bytes(np.ascontiguousarray(values[..., channel]).tobytes())
+    return planes
+
+
+def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mapping[str, str]) -> None:
+    import OpenImageIO as oiio  # noqa: PLC0415  20 MB that only a written picture needs
+
+    rows, columns, channels = picture.shape
+    suffix = temporary.suffix.lower()
+    if suffix == ".png":
+        pixels, kind = to_bytes(picture), "uint8"
+    elif suffix == ".exr":
+        pixels, kind = picture.astype(np.float32), "float"
+    else:
+        pixels, kind = np.rint(np.clip(picture, 0.0, 1.0) * 65535.0).astype(np.uint16), "uint16"
+    spec = oiio.ImageSpec(columns, rows, channels, kind)
+    for name, value in metadata.items():
+        spec.attribute(name, value)
+    output = oiio.ImageOutput.create(str(temporary))
+    if not output:
+        raise PictureError(f"no writer for {suffix}: {oiio.geterror()}")
+    try:
+        written = output.open(str(temporary), spec) and output.write_image(np.ascontiguousarray(pixels))
+        reason = output.geterror()
+    finally:
+        closed = output.close()
+    if not (written and closed):
+        raise PictureError(f"the picture could not be written: {reason or output.geterror()}")
+
+
+@contextmanager
+def _replacing(targets: list[Path]) -> Iterator[list[Path]]:
+    """Temporary files beside the targets, which take their place if all goes well and vanish if it does not."""
+    temporaries: list[Path] = []
+    try:
+        for target in targets:
+            temporaries.append(_explained(target, lambda target=target: _temporary_beside(target)))
+        yield temporaries
+        for temporary, target in zip(temporaries, targets, strict=True):
+            _explained(target, lambda a=temporary, b=target: os.replace(a, b))
+    except PictureError:
+        raise
+    except OSError as error:
+        raise PictureError(f"{targets[0]}: {error.strerror or error}") from None
+    finally:
+        for temporary in temporaries:
+            temporary.unlink(missing_ok=True)
+
+
+def _temporary_beside(target: Path) -> Path:
+    descriptor, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+    os.fchmod(descriptor, 0o666 & ~_mask())
+    os.close(descriptor)
+    return Path(name)
+
+
+def _mask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _explained(target: Path, action: Callable[[], _T]) -> _T:
+    try:
+        return action()
+    except OSError as error:
+        raise PictureError(f"{target}: {error.strerror or error}") from None

@@ -1,0 +1,261 @@
+//! The bounding volume hierarchy over the finite shapes, and its walk by any kind of ray.
+//!
+//! obvhs builds a binary tree (PLOC: Meister and Bittner 2018); it is folded into nodes of four boxes, which one
+//! set of SIMD instructions tests at once (Wald, Benthin and Boulos 2008). Boxes are f32 and rounded outward; the
+//! tests against them are widened by their own rounding error, so that no box that a ray touches is missed; what is
+//! in the leaves is tested in f64.
+
+use std::time::Duration;
+
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::{Boundable, BvhBuildParams};
+use wide::f32x4;
+
+use crate::ray::ShapeId;
+
+/// Beyond this, f32 arithmetic on boxes may overflow: such shapes are tested one by one.
+const LARGEST_COORDINATE: f64 = 1e18;
+
+/// Four boxes, by coordinate: x of the low sides, x of the high sides, then y and z.
+#[derive(Clone, Copy, Debug)]
+pub struct Boxes {
+    pub sides: [[f32x4; 2]; 3],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    boxes: Boxes,
+    /// A node's number, or the first item of a leaf.
+    child: [u32; 4],
+    /// Items of a leaf, 0 for a node.
+    count: [u32; 4],
+}
+
+/// A shape in the tree. The corners of a facet stand beside its name, so that a leaf reads them in one go.
+#[derive(Clone, Copy, Debug)]
+pub struct Item {
+    pub shape: ShapeId,
+    pub corners: [u32; 3],
+}
+
+/// A shape's bounds, widened to f32. None where a coordinate is not a number or too large for the tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds(Aabb);
+
+impl Boundable for Bounds {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+impl Bounds {
+    pub fn of(low: DVec3, high: DVec3) -> Option<Self> {
+        let within = low.min_element() >= -LARGEST_COORDINATE && high.max_element() <= LARGEST_COORDINATE;
+        let down = |x: f64| {
+            let rounded = x as f32;
+            if f64::from(rounded) > x { rounded.next_down() } else { rounded }
+        };
+        let up = |x: f64| {
+            let rounded = x as f32;
+            if f64::from(rounded) < x { rounded.next_up() } else { rounded }
+        };
+        within.then(|| {
+            Self(Aabb::new(
+                Vec3A::new(down(low.x), down(low.y), down(low.z)),
+                Vec3A::new(up(high.x), up(high.y), up(high.z)),
+            ))
+        })
+    }
+}
+
+/// A ray on its walk through the tree.
+pub trait Probe {
+    /// Distances at which the four boxes are entered; infinite where they are missed, or lie beyond what is wanted.
+    fn enter(&mut self, boxes: &Boxes) -> [f32; 4];
+    /// Farthest distance still of interest.
+    fn limit(&self) -> f32;
+    /// Tests one shape; true ends the walk.
+    fn test(&mut self, item: &Item) -> bool;
+}
+
+/// The tree, and beside it the shapes that have no box.
+#[derive(Clone, Debug, Default)]
+pub struct Bvh {
+    nodes: Vec<Node>,
+    items: Vec<Item>,
+    pub unbounded: Vec<ShapeId>,
+    /// Largest coordinate of a box, by axis.
+    reach: [f32; 3],
+}
+
+impl Bvh {
+    pub fn build(bounds: &[Bounds], items: &[Item], unbounded: Vec<ShapeId>) -> Self {
+        if bounds.is_empty() {
+            return Self { unbounded, ..Self::default() };
+        }
+        let params = BvhBuildParams {
+            max_prims_per_leaf: 4,
+            collapse_traversal_cost: 2.0,
+            ..BvhBuildParams::fast_build()
+        };
+        let mut duration = Duration::ZERO;
+        let binary = build_bvh2(bounds, params, &mut duration);
+        let items = binary.primitive_indices.iter().map(|&i| items[i as usize]).collect();
+        let mut tree = Self { items, unbounded, ..Self::default() };
+        let root = binary.nodes[0];
+        let (low, high) = (root.aabb.min.to_array(), root.aabb.max.to_array());
+        for axis in 0..3 {
+            tree.reach[axis] = low[axis].abs().max(high[axis].abs());
+        }
+        tree.fold(&binary.nodes);
+        tree
+    }
+
+    /// Makes nodes of four out of a binary tree: of a node's descendants the largest is opened until there are four.
+    fn fold(&mut self, binary: &[obvhs::bvh2::node::Bvh2Node]) {
+        self.nodes.reserve(binary.len() / 3 + 1);
+        // (binary nodes that become one node, where its number is to be written)
+        let mut todo: Vec<(u32, Option<(usize, usize)>)> = vec![(0, None)];
+        while let Some((top, parent)) = todo.pop() {
+            let mut members = [top, u32::MAX, u32::MAX, u32::MAX];
+            let mut count = 1;
+            while count < 4 {
+                let largest =
+                    (0..count).filter(|&i| binary[members[i] as usize].prim_count == 0).max_by(|&i, &j| {
+                        let area = |k: usize| binary[members[k] as usize].aabb.half_area();
+                        area(i).total_cmp(&area(j))
+                    });
+                let Some(largest) = largest else { break };
+                let first = binary[members[largest] as usize].first_index;
+                members[largest] = first;
+                members[count] = first + 1;
+                count += 1;
+            }
+            let number = self.nodes.len();
+            if let Some((node, slot)) = parent {
+                self.nodes[node].child[slot] = number as u32;
+            }
+            let mut low = [[f32::INFINITY; 4]; 3];
+            let mut high = [[f32::NEG_INFINITY; 4]; 3];
+            let (mut child, mut prims) = ([0; 4], [0; 4]);
+            for (slot, &member) in members.iter().take(count).enumerate() {
+                let node = binary[member as usize];
+                for axis in 0..3 {
+                    low[axis][slot] = node.aabb.min[axis];
+                    high[axis][slot] = node.aabb.max[axis];
+                }
+                child[slot] = node.first_index;
+                prims[slot] = node.prim_count;
+                if node.prim_count == 0 {
+                    todo.push((member, Some((number, slot))));
+                }
+            }
+            let sides = [0, 1, 2].map(|axis| [f32x4::from(low[axis]), f32x4::from(high[axis])]);
+            self.nodes.push(Node { boxes: Boxes { sides }, child, count: prims });
+        }
+    }
+
+    /// Constants of the slab test along one axis.
+    pub fn slab(&self, axis: usize, origin: f64, direction: f64) -> Slab {
+        Slab::new(origin, direction, f64::from(self.reach[axis]))
+    }
+
+    /// Takes a ray through the tree, nearest boxes first. `stack` is working memory, kept between walks.
+    #[inline]
+    pub fn walk(&self, probe: &mut impl Probe, stack: &mut Vec<Visit>) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        stack.clear();
+        let mut visit = Visit { near: f32::NEG_INFINITY, child: 0, count: 0 };
+        loop {
+            if visit.near <= probe.limit() {
+                if visit.count > 0 {
+                    let first = visit.child as usize;
+                    for item in &self.items[first..first + visit.count as usize] {
+                        if probe.test(item) {
+                            return;
+                        }
+                    }
+                } else {
+                    let node = &self.nodes[visit.child as usize];
+                    let near = probe.enter(&node.boxes);
+                    let base = stack.len();
+                    for (slot, &near) in near.iter().enumerate() {
+                        if near < f32::INFINITY {
+                            let next = Visit { near, child: node.child[slot], count: node.count[slot] };
+                            // Farthest below, nearest on top.
+                            let mut at = stack.len();
+                            stack.push(next);
+                            while at > base && stack[at - 1].near < near {
+                                stack[at] = stack[at - 1];
+                                at -= 1;
+                            }
+                            stack[at] = next;
+                        }
+                    }
+                }
+            }
+            match stack.pop() {
+                Some(next) => visit = next,
+                None => return,
+            }
+        }
+    }
+}
+
+/// A box or leaf still to be visited.
+#[derive(Clone, Copy, Debug)]
+pub struct Visit {
+    near: f32,
+    child: u32,
+    count: u32,
+}
+
+/// The slab test of one axis: a box is between near side * inverse - near_offset and far side * inverse - far_offset.
+/// The offsets hold the error of all the arithmetic, so that the interval is never too narrow.
+#[derive(Clone, Copy, Debug)]
+pub struct Slab {
+    inverse: f32x4,
+    near_offset: f32x4,
+    far_offset: f32x4,
+    near_side: usize,
+}
+
+impl Slab {
+    /// A direction flatter than this is tested as if it were this; over the size of any scene that moves a ray by
+    /// less than the widening does.
+    const FLATTEST: f64 = 1e-12;
+
+    fn new(origin: f64, direction: f64, reach: f64) -> Self {
+        let direction =
+            if direction.abs() < Self::FLATTEST { Self::FLATTEST.copysign(direction) } else { direction };
+        let inverse = 1.0 / direction;
+        let offset = origin * inverse;
+        let error = (origin.abs() + reach) * inverse.abs() * 2f64.powi(-21);
+        Self {
+            inverse: f32x4::splat(inverse as f32),
+            near_offset: f32x4::splat((offset + error) as f32),
+            far_offset: f32x4::splat((offset - error) as f32),
+            near_side: usize::from(direction < 0.0),
+        }
+    }
+
+    #[inline]
+    pub fn near(&self, sides: &[f32x4; 2]) -> f32x4 {
+        sides[self.near_side] * self.inverse - self.near_offset
+    }
+
+    #[inline]
+    pub fn far(&self, sides: &[f32x4; 2]) -> f32x4 {
+        sides[1 - self.near_side] * self.inverse - self.far_offset
+    }
+}
+
+/// The next f32 at or beyond a distance.
+#[inline]
+pub fn at_least(t: f64) -> f32 {
+    (t as f32).next_up()
+}

@@ -1,0 +1,32 @@
+//! The pin-hole camera: from a pixel to the direction of its eye ray. Thesis 3.2.
+
+use glam::DVec3;
+
+/// Viewing geometry: eye O, view reference point VRP, and the unit vectors VR (right) and VUP (up).
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    pub eye: DVec3,
+    pub reference_point: DVec3,
+    pub right: DVec3,
+    pub up: DVec3,
+    pub aspect: f64,
+}
+
+/// How many pixels the whole picture has.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Size {
+    pub width: usize,
+    pub height: usize,
+}
+
+impl Camera {
+    /// D = (P - O)/|P - O| of pixel (x, y), counted from the top left, where
+    /// P = VRP + (2u - 1) VR + (1 - 2v) (height/width) aspect VUP, u = x/(width - 1), v = y/(height - 1).
+    pub fn direction(&self, size: Size, x: usize, y: usize) -> DVec3 {
+        let share = |i: usize, n: usize| if n > 1 { i as f64 / (n - 1) as f64 } else { 0.5 };
+        let (u, v) = (share(x, size.width), share(y, size.height));
+        let upright = size.height as f64 / size.width as f64 * self.aspect;
+        let point = self.reference_point + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * upright * self.up;
+        (point - self.eye).normalize_or_zero()
+    }
+}

@@ -1,0 +1,453 @@
+//! Reads the scene IR (`m3dc.ir.SceneIR`) into the kernel's own scene.
+//!
+//! Nothing of it is trusted: a table that is missing, of the wrong type, or names rows that do not exist is a
+//! ValueError, so that a damaged file can do no more than that.
+
+use std::ops::Range;
+
+use glam::{DMat4, DVec3};
+use numpy::{Element, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyAnyMethods;
+
+use crate::camera::Camera;
+use crate::optics::atmosphere::{Atmosphere, Limits};
+use crate::scene::{Background, Owner, Scene, Shapes, Solid};
+use crate::shade::haze::Haze;
+use crate::shade::highlight::Gloss;
+use crate::shade::illumination::{Light, Source, Surface};
+use crate::shade::sky::Sky;
+use crate::shape::rectangle::Rectangle;
+use crate::shape::sphere::Sphere;
+use crate::texture::Texture;
+use crate::texture::blend::{Along, Blend};
+use crate::texture::checker::Checker;
+use crate::texture::color_range::ColorRange;
+
+fn damaged(what: String) -> PyErr {
+    PyValueError::new_err(format!("damaged scene: {what}"))
+}
+
+/// One table of the IR.
+struct Table<'py> {
+    name: &'static str,
+    columns: Bound<'py, PyAny>,
+}
+
+impl<'py> Table<'py> {
+    fn of(ir: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
+        let columns =
+            ir.getattr("tables")?.get_item(name).map_err(|_| damaged(format!("there is no table {name}")))?;
+        Ok(Self { name, columns })
+    }
+
+    fn column<T: pyo3::conversion::FromPyObjectOwned<'py>>(&self, column: &str) -> PyResult<T> {
+        self.columns
+            .get_item(column)
+            .ok()
+            .and_then(|array| array.extract().ok())
+            .ok_or_else(|| damaged(format!("{}.{column} is missing or of the wrong type", self.name)))
+    }
+
+    fn plain<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Vec<T>> {
+        let array: PyReadonlyArray1<T> = self.column(column)?;
+        Ok(array.as_array().iter().copied().collect())
+    }
+
+    fn threes<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Vec<[T; 3]>> {
+        let array: PyReadonlyArray2<T> = self.column(column)?;
+        let array = array.as_array();
+        if array.ncols() != 3 {
+            return Err(damaged(format!("{}.{column} does not have three numbers a row", self.name)));
+        }
+        Ok(array.rows().into_iter().map(|row| [row[0], row[1], row[2]]).collect())
+    }
+
+    fn vectors(&self, column: &str) -> PyResult<Vec<DVec3>> {
+        Ok(self.threes::<f64>(column)?.into_iter().map(DVec3::from).collect())
+    }
+
+    /// Matrices that act on row vectors become ones that act on columns, as glam has them.
+    fn matrices(&self, column: &str) -> PyResult<Vec<DMat4>> {
+        let array: PyReadonlyArray3<f64> = self.column(column)?;
+        let array = array.as_array();
+        if array.shape()[1..] != [4, 4] {
+            return Err(damaged(format!("{}.{column} does not hold 4x4 matrices", self.name)));
+        }
+        let matrix = |rows: numpy::ndarray::ArrayView2<f64>| {
+            DMat4::from_cols_array_2d(&std::array::from_fn(|i| std::array::from_fn(|j| rows[[i, j]])))
+        };
+        Ok(array.outer_iter().map(matrix).collect())
+    }
+
+    fn entry<'a, T>(&self, column: &'a [T], row: usize) -> PyResult<&'a T> {
+        column.get(row).ok_or_else(|| damaged(format!("{} has no row {row}", self.name)))
+    }
+}
+
+/// Rows `first`..`first + count` of a table of `length` rows.
+fn rows(what: &str, first: i32, count: i32, length: usize) -> PyResult<Range<usize>> {
+    let range = usize::try_from(first).ok().zip(usize::try_from(count).ok());
+    match range {
+        Some((first, count)) if first + count <= length => Ok(first..first + count),
+        _ => Err(damaged(format!("{what} {first} to {} do not exist", i64::from(first) + i64::from(count)))),
+    }
+}
+
+fn vector(of: &Bound<PyAny>, name: &str) -> PyResult<DVec3> {
+    let (x, y, z): (f64, f64, f64) = of.getattr(name)?.extract()?;
+    Ok(DVec3::new(x, y, z))
+}
+
+fn number(of: &Bound<PyAny>, name: &str) -> PyResult<f64> {
+    of.getattr(name)?.extract()
+}
+
+/// The whole scene but the atmosphere.
+pub fn scene(ir: &Bound<PyAny>) -> PyResult<Scene> {
+    let said = ir.getattr("scene")?;
+    let view = said.getattr("view")?;
+    let camera = Camera {
+        eye: vector(&view, "eye")?,
+        reference_point: vector(&view, "reference_point")?,
+        right: vector(&view, "right")?,
+        up: vector(&view, "up")?,
+        aspect: number(&view, "aspect")?,
+    };
+    let ambient = said.getattr("ambient")?;
+    let block = said.getattr("haze")?;
+    let haze = Haze {
+        color: number(&block, "intensity")? * vector(&block, "color")?,
+        density: number(&block, "density")?,
+    };
+    let lights = lights(ir)?;
+    let background = background(&said, &block, &haze, &lights)?;
+    let solids = solids(ir)?;
+    let shapes = shapes(ir, solids.len(), lights.len())?;
+    let (solid_tree, light_tree) = shapes.trees();
+    Ok(Scene {
+        camera,
+        background,
+        ambient: number(&ambient, "intensity")? * vector(&ambient, "color")?,
+        haze,
+        lights,
+        solids,
+        shapes,
+        solid_tree,
+        light_tree,
+    })
+}
+
+fn background(
+    said: &Bound<PyAny>,
+    block: &Bound<PyAny>,
+    haze: &Haze,
+    lights: &[Light],
+) -> PyResult<Background> {
+    let sky = said.getattr("sky")?;
+    if sky.is_none() {
+        let hazy: bool = block.getattr("defined")?.extract()?;
+        return Ok(Background::Plain(if hazy { haze.color } else { vector(said, "background")? }));
+    }
+    let sun: i64 = sky.getattr("sun")?.extract()?;
+    let sun = usize::try_from(sun).ok().and_then(|row| lights.get(row));
+    let sun = sun.ok_or_else(|| damaged("the sky's sun is not among the lights".into()))?;
+    Ok(Background::Sky(Sky {
+        radius: number(&sky, "radius")?,
+        intensity: number(&sky, "intensity")?,
+        zenith_color: vector(&sky, "zenith_color")?,
+        horizon_color: vector(&sky, "horizon_color")?,
+        overcast: number(&sky, "overcast")?,
+        sun: -sun.direction,
+    }))
+}
+
+fn lights(ir: &Bound<PyAny>) -> PyResult<Vec<Light>> {
+    let table = Table::of(ir, "lights")?;
+    let kind: Vec<i32> = table.plain("kind")?;
+    let (color, intensity) = (table.vectors("color")?, table.plain("intensity")?);
+    let (attenuation, exponent) = (table.plain("attenuation")?, table.plain("exponent")?);
+    let angle: Vec<f64> = table.plain("angle")?;
+    let (position, direction) = (table.vectors("position")?, table.vectors("direction")?);
+    let (shadows, highlights) = (table.plain("shadows")?, table.plain("highlights")?);
+    (0..kind.len())
+        .map(|i| {
+            let angle = *table.entry(&angle, i)?;
+            let source = if kind[i] == 0 {
+                Source::Infinite
+            } else {
+                Source::Point {
+                    position: *table.entry(&position, i)?,
+                    attenuation: *table.entry(&attenuation, i)?,
+                    exponent: *table.entry(&exponent, i)?,
+                    cone: if angle >= 180.0 { -2.0 } else { angle.to_radians().cos() },
+                }
+            };
+            Ok(Light {
+                source,
+                color: *table.entry(&color, i)?,
+                intensity: *table.entry(&intensity, i)?,
+                direction: table.entry(&direction, i)?.normalize_or_zero(),
+                shadows: *table.entry(&shadows, i)?,
+                highlights: *table.entry(&highlights, i)?,
+            })
+        })
+        .collect()
+}
+
+fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
+    let object_inverse = Table::of(ir, "solids")?.matrices("inverse")?;
+    let textures = textures(ir)?;
+    let table = Table::of(ir, "surfaces")?;
+    let color = table.vectors("color")?;
+    let plain = |column| table.plain::<f64>(column);
+    let (ambient, diffuse, specular) = (plain("ambient")?, plain("diffuse")?, plain("specular")?);
+    let (refindex, rough, hard) = (plain("refindex")?, plain("rough")?, plain("hard")?);
+    let (metallic, fresnel, beckmann) = (plain("metallic")?, plain("fresnel")?, plain("beckmann")?);
+    let first: Vec<i32> = table.plain("first_texture")?;
+    let count: Vec<i32> = table.plain("texture_count")?;
+    (0..object_inverse.len())
+        .map(|i| {
+            let used = rows("textures", *table.entry(&first, i)?, *table.entry(&count, i)?, textures.len())?;
+            Ok(Solid {
+                surface: Surface {
+                    color: *table.entry(&color, i)?,
+                    ambient: *table.entry(&ambient, i)?,
+                    diffuse: *table.entry(&diffuse, i)?,
+                    specular: *table.entry(&specular, i)?,
+                    hard: *table.entry(&hard, i)?,
+                    gloss: Gloss {
+                        refindex: *table.entry(&refindex, i)?,
+                        rough: *table.entry(&rough, i)?,
+                        metallic: *table.entry(&metallic, i)?,
+                        fresnel: *table.entry(&fresnel, i)?,
+                        beckmann: *table.entry(&beckmann, i)?,
+                    },
+                },
+                textures: textures[used].iter().filter_map(|texture| texture.on(object_inverse[i])).collect(),
+            })
+        })
+        .collect()
+}
+
+/// A row of `textures` before it is put on a solid.
+struct TextureRow {
+    kind: i32,
+    local: bool,
+    color: DVec3,
+    inverse: DMat4,
+    ranges: Vec<ColorRange>,
+}
+
+impl TextureRow {
+    /// World to texture space is the inverse object matrix where LOCAL, then the texture's own inverse. None for
+    /// the kinds that the kernel does not have.
+    fn on(&self, object_inverse: DMat4) -> Option<Texture> {
+        let blend =
+            |along| Some(Texture::Blend(Blend { along, color: self.color, ranges: self.ranges.clone() }));
+        match self.kind {
+            0 => {
+                let to_texture = if self.local { self.inverse * object_inverse } else { self.inverse };
+                Some(Texture::Checker(Checker { color: self.color, to_texture }))
+            }
+            11 => blend(Along::U),
+            12 => blend(Along::V),
+            _ => None,
+        }
+    }
+}
+
+/// Numbers of the texture kinds that `TextureRow::on` knows.
+pub const TEXTURE_KINDS: [i32; 3] = [0, 11, 12];
+
+fn textures(ir: &Bound<PyAny>) -> PyResult<Vec<TextureRow>> {
+    let table = Table::of(ir, "color_ranges")?;
+    let (start, end): (Vec<f64>, Vec<f64>) = (table.plain("start")?, table.plain("end")?);
+    let (start_color, end_color) = (table.vectors("start_color")?, table.vectors("end_color")?);
+    let ranges: Vec<ColorRange> = (0..start.len())
+        .map(|i| {
+            Ok(ColorRange {
+                start: start[i],
+                end: *table.entry(&end, i)?,
+                start_color: *table.entry(&start_color, i)?,
+                end_color: *table.entry(&end_color, i)?,
+            })
+        })
+        .collect::<PyResult<_>>()?;
+    let table = Table::of(ir, "textures")?;
+    let kind: Vec<i32> = table.plain("kind")?;
+    let local: Vec<bool> = table.plain("local")?;
+    let (color, inverse) = (table.vectors("color")?, table.matrices("inverse")?);
+    let first: Vec<i32> = table.plain("first_color_range")?;
+    let count: Vec<i32> = table.plain("color_range_count")?;
+    (0..kind.len())
+        .map(|i| {
+            let used =
+                rows("color_ranges", *table.entry(&first, i)?, *table.entry(&count, i)?, ranges.len())?;
+            Ok(TextureRow {
+                kind: kind[i],
+                local: *table.entry(&local, i)?,
+                color: *table.entry(&color, i)?,
+                inverse: *table.entry(&inverse, i)?,
+                ranges: ranges[used].to_vec(),
+            })
+        })
+        .collect()
+}
+
+/// P, U and V of a table of planar primitives.
+struct Planar<'py> {
+    table: Table<'py>,
+    point: Vec<DVec3>,
+    u: Vec<DVec3>,
+    v: Vec<DVec3>,
+}
+
+impl<'py> Planar<'py> {
+    fn of(ir: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
+        let table = Table::of(ir, name)?;
+        let (point, u, v) = (table.vectors("point")?, table.vectors("u")?, table.vectors("v")?);
+        Ok(Self { table, point, u, v })
+    }
+
+    fn row(&self, i: usize) -> PyResult<(DVec3, DVec3, DVec3)> {
+        Ok((
+            *self.table.entry(&self.point, i)?,
+            *self.table.entry(&self.u, i)?,
+            *self.table.entry(&self.v, i)?,
+        ))
+    }
+}
+
+fn spheres(ir: &Bound<PyAny>) -> PyResult<Vec<Sphere>> {
+    let table = Table::of(ir, "spheres")?;
+    let center = table.vectors("center")?;
+    let radius: Vec<f64> = table.plain("radius")?;
+    let (pole, equator) = (table.vectors("pole")?, table.vectors("equator")?);
+    (0..center.len())
+        .map(|i| {
+            Ok(Sphere {
+                center: center[i],
+                radius: *table.entry(&radius, i)?,
+                pole: *table.entry(&pole, i)?,
+                equator: *table.entry(&equator, i)?,
+            })
+        })
+        .collect()
+}
+
+fn shapes(ir: &Bound<PyAny>, solids: usize, lights: usize) -> PyResult<Shapes> {
+    let table = Table::of(ir, "primitives")?;
+    let kind: Vec<i32> = table.plain("kind")?;
+    let row: Vec<i32> = table.plain("row")?;
+    let (solid, light): (Vec<i32>, Vec<i32>) = (table.plain("solid")?, table.plain("light")?);
+    let spheres = spheres(ir)?;
+    let (planes, triangles) = (Planar::of(ir, "planes")?, Planar::of(ir, "triangles")?);
+    let rectangles = Planar::of(ir, "rectangles")?;
+    let meshes = Meshes::of(ir)?;
+    let mut shapes = Shapes::default();
+    shapes.vertices = Table::of(ir, "vertices")?.vectors("position")?;
+    shapes.normals = Table::of(ir, "normals")?.vectors("direction")?;
+    for (i, &kind) in kind.iter().enumerate() {
+        let owner = match (*table.entry(&solid, i)?, *table.entry(&light, i)?) {
+            (solid, -1) if usize::try_from(solid).is_ok_and(|row| row < solids) => {
+                Owner::Solid(solid as usize)
+            }
+            (-1, light) if usize::try_from(light).is_ok_and(|row| row < lights) => {
+                Owner::Light(light as usize)
+            }
+            _ => return Err(damaged(format!("primitive {i} belongs to no solid and no light"))),
+        };
+        let row = usize::try_from(*table.entry(&row, i)?)
+            .map_err(|_| damaged(format!("primitive {i} has no row")))?;
+        match kind {
+            0 => {
+                let sphere = spheres.get(row).ok_or_else(|| damaged(format!("spheres has no row {row}")))?;
+                shapes.push_sphere(*sphere, owner);
+            }
+            1 => {
+                let (point, u, v) = planes.row(row)?;
+                shapes.push_plane(point, u.cross(v), owner);
+            }
+            2 => {
+                let (point, u, v) = triangles.row(row)?;
+                shapes.push_triangle([point + v, point, point + u], owner);
+            }
+            3 => {
+                let (point, u, v) = rectangles.row(row)?;
+                shapes.push_rectangle(Rectangle { point, u, v }, owner);
+            }
+            4 | 5 => meshes.push(row, owner, &mut shapes)?,
+            other => return Err(damaged(format!("primitive {i} is of an unknown kind, {other}"))),
+        }
+        if shapes.count() > crate::ray::ShapeId::MOST {
+            return Err(PyValueError::new_err("the scene has more than 1,073,741,824 shapes"));
+        }
+    }
+    Ok(shapes)
+}
+
+/// POLYGONS and TERRAIN.
+struct Meshes<'py> {
+    table: Table<'py>,
+    phong: Vec<bool>,
+    first_facet: Vec<i32>,
+    facet_count: Vec<i32>,
+    corners: Vec<[i32; 3]>,
+    normals: Vec<[i32; 3]>,
+}
+
+impl<'py> Meshes<'py> {
+    fn of(ir: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let table = Table::of(ir, "meshes")?;
+        let facets = Table::of(ir, "facets")?;
+        Ok(Self {
+            phong: table.plain("phong")?,
+            first_facet: table.plain("first_facet")?,
+            facet_count: table.plain("facet_count")?,
+            corners: facets.threes("vertex")?,
+            normals: facets.threes("normal")?,
+            table,
+        })
+    }
+
+    fn push(&self, row: usize, owner: Owner, shapes: &mut Shapes) -> PyResult<()> {
+        let first = *self.table.entry(&self.first_facet, row)?;
+        let count = *self.table.entry(&self.facet_count, row)?;
+        let used = rows("facets", first, count, self.corners.len().min(self.normals.len()))?;
+        let phong = *self.table.entry(&self.phong, row)?;
+        let (vertices, normals) = (shapes.vertices.len(), shapes.normals.len());
+        let exist = |names: &[i32; 3], length: usize| {
+            names.iter().all(|&name| usize::try_from(name).is_ok_and(|name| name < length))
+        };
+        if !self.corners[used.clone()].iter().all(|names| exist(names, vertices)) {
+            return Err(damaged("a facet has a corner that does not exist".into()));
+        }
+        let facets = used.map(|i| {
+            let smooth = phong && exist(&self.normals[i], normals);
+            let name = |names: [i32; 3]| names.map(|name| name as u32);
+            (name(self.corners[i]), smooth.then(|| name(self.normals[i])))
+        });
+        shapes.push_facets(facets, owner);
+        Ok(())
+    }
+}
+
+/// The atmosphere, if the scene has a MIRAGE.
+pub fn atmosphere(ir: &Bound<PyAny>, finer: usize) -> PyResult<Option<Atmosphere>> {
+    let mirage = ir.getattr("scene")?.getattr("mirage")?;
+    if mirage.is_none() {
+        return Ok(None);
+    }
+    let segments: i64 = mirage.getattr("segments")?.extract()?;
+    let limits = Limits {
+        segments: usize::try_from(segments).unwrap_or(0),
+        distance: number(&mirage, "distance")?,
+        elevation: number(&mirage, "elevation")?,
+    };
+    let table = Table::of(ir, "profile")?;
+    let elevations: Vec<f64> = table.plain("elevation")?;
+    let temperatures: Vec<f64> = table.plain("temperature")?;
+    Atmosphere::new(&elevations, &temperatures, limits, finer).map(Some).map_err(PyValueError::new_err)
+}

@@ -1,0 +1,87 @@
+//! A straight ray, what it hits, and the names of shapes.
+
+use glam::DVec3;
+
+/// Which shape of a scene: its kind and its row in that kind's table, in 32 bits.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct ShapeId(u32);
+
+/// The closed set of shapes a ray can meet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ShapeKind {
+    Facet,
+    Sphere,
+    Rectangle,
+    Plane,
+}
+
+impl ShapeId {
+    /// Rows a table may have at most.
+    pub const MOST: usize = 1 << 30;
+
+    pub fn new(kind: ShapeKind, row: usize) -> Self {
+        debug_assert!(row < Self::MOST);
+        Self((kind as u32) << 30 | row as u32)
+    }
+
+    #[inline]
+    pub fn kind(self) -> ShapeKind {
+        match self.0 >> 30 {
+            0 => ShapeKind::Facet,
+            1 => ShapeKind::Sphere,
+            2 => ShapeKind::Rectangle,
+            _ => ShapeKind::Plane,
+        }
+    }
+
+    #[inline]
+    pub fn row(self) -> usize {
+        (self.0 & (Self::MOST as u32 - 1)) as usize
+    }
+}
+
+/// A straight ray r(t) = O + t D with D of unit length (thesis eq. 3.2), for t in `from`..`to`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    pub origin: DVec3,
+    pub direction: DVec3,
+    /// Hits at `from` or nearer do not count.
+    pub from: f64,
+    /// Hits at `to` or farther do not count.
+    pub to: f64,
+    /// The shape the ray starts on, if any: a planar one is not met again, of a sphere only the far side.
+    pub leaves: Option<ShapeId>,
+}
+
+impl Ray {
+    pub fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self { origin, direction, from: 0.0, to: f64::INFINITY, leaves: None }
+    }
+
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.direction
+    }
+}
+
+/// Where along a ray the nearest shape is: `t` is a length on a straight ray, and the horizontal distance r from
+/// the eye on a curved one.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Hit {
+    pub t: f64,
+    pub shape: ShapeId,
+}
+
+impl Hit {
+    /// Keeps the nearer of two hits. Of two at the same distance the one with the lower name stays, so that the
+    /// order in which shapes are tested never shows.
+    #[inline]
+    pub fn keep_nearer(nearest: &mut Option<Hit>, t: f64, shape: ShapeId) {
+        let nearer = match nearest {
+            None => true,
+            Some(known) => t < known.t || (t == known.t && shape < known.shape),
+        };
+        if nearer {
+            *nearest = Some(Hit { t, shape });
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The shapes a ray can meet, each with its test against a straight ray and its cut by the vertical plane of a
+//! curved one. Thesis 3.3 and 4.3.
+
+pub mod plane;
+pub mod rectangle;
+pub mod sphere;
+pub mod triangle;
+
+use glam::{DVec2, DVec3};
+
+/// The vertical plane a curved ray runs in (thesis 4.2): through the eye O, along the horizontal unit vector R.
+#[derive(Clone, Copy, Debug)]
+pub struct RadialPlane {
+    pub origin: DVec3,
+    pub radial: DVec2,
+}
+
+impl RadialPlane {
+    /// Distance of a point along R.
+    #[inline]
+    pub fn along(&self, point: DVec3) -> f64 {
+        let (x, y) = (point.x - self.origin.x, point.y - self.origin.y);
+        x * self.radial.x + y * self.radial.y
+    }
+
+    /// Signed distance of a point from the plane.
+    #[inline]
+    pub fn beside(&self, point: DVec3) -> f64 {
+        let (x, y) = (point.x - self.origin.x, point.y - self.origin.y);
+        y * self.radial.x - x * self.radial.y
+    }
+
+    /// The point of the plane at distance r and height z.
+    #[inline]
+    pub fn point(&self, r: f64, z: f64) -> DVec3 {
+        DVec3::new(self.origin.x + r * self.radial.x, self.origin.y + r * self.radial.y, z)
+    }
+}
+
+/// What is left of a flat polygon in a radial plane: a line from (r, z) = `start` to `end`, start.x <= end.x.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    pub start: DVec2,
+    pub end: DVec2,
+}
+
+/// Cuts a convex polygon with a radial plane. An edge is cut where its ends lie on different sides, an end on the
+/// plane counting as on the positive one, and its cut depends on nothing but the edge: neighbours share it exactly.
+#[inline]
+pub fn cut<const N: usize>(plane: &RadialPlane, corners: &[DVec3; N]) -> Option<Segment> {
+    let beside = corners.map(|corner| plane.beside(corner));
+    let mut cuts = [DVec2::ZERO; 2];
+    let mut count = 0;
+    for i in 0..N {
+        let j = if i + 1 == N { 0 } else { i + 1 };
+        if (beside[i] >= 0.0) == (beside[j] >= 0.0) {
+            continue;
+        }
+        let (low, high) = if beside[i] < 0.0 { (i, j) } else { (j, i) };
+        let share = beside[low] / (beside[low] - beside[high]);
+        let (from, to) = (corners[low], corners[high]);
+        let (r0, r1) = (plane.along(from), plane.along(to));
+        if count < 2 {
+            cuts[count] = DVec2::new(r0 + share * (r1 - r0), from.z + share * (to.z - from.z));
+        }
+        count += 1;
+    }
+    if count != 2 {
+        return None;
+    }
+    let [start, end] = if cuts[0].x <= cuts[1].x { cuts } else { [cuts[1], cuts[0]] };
+    Some(Segment { start, end })
+}

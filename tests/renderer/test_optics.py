@@ -1,0 +1,134 @@
+"""The curves of eye rays, against an independent integration of the equation of the ray."""
+
+import math
+
+import numpy as np
+import pytest
+from m3d_render import SceneError
+from m3d_render.optics import trace_crossings, trace_paths
+from scene_builder import MERMAN_PROFILE, SceneBuilder
+from scipy.integrate import solve_ivp
+
+EPSILON, BETA, GRAVITY, EARTH, SEA_LEVEL = 226e-6, 3.48e-3, 9.80665, 6_371_000.0, 101_325.0
+EYE = 2.1
+DISTANCES = (500.0, 1000.0, 1400.0)
+
+
+class Air:
+    """Pressure, temperature and curvature at every height: the continuous atmosphere, not layers."""
+
+    def __init__(self, profile):
+        self.z = np.array([z for z, _ in profile])
+        self.t = np.array([celsius + 273.15 for _, celsius in profile])
+        self.gradient = np.diff(self.t) / np.diff(self.z)
+        self.p = [SEA_LEVEL]
+        for i, gradient in enumerate(self.gradient):
+            self.p.append(self._from(i, gradient, self.z[i + 1]))
+
+    def _from(self, i, gradient, z):
+        t = self.t[i] + gradient * (z - self.z[i])
+        if gradient == 0:
+            return self.p[i] * math.exp(-BETA * GRAVITY * (z - self.z[i]) / self.t[i])
+        return self.p[i] * (t / self.t[i]) ** (-BETA * GRAVITY / gradient)
+
+    def bend(self, interval, z):
+        """z'' = -(κ - 1/R) in an interval of the profile."""
+        gradient = self.gradient[interval]
+        t = self.t[interval] + gradient * (z - self.z[interval])
+        p = self._from(interval, gradient, z)
+        eta = 1 + EPSILON * BETA * p / t
+        kappa = EPSILON * BETA * p * (gradient + BETA * GRAVITY) / (eta * t * t)
+        return 1 / EARTH - kappa
+
+    def heights(self, angle, at):
+        """Heights at distances, NaN beyond the end, and whether the ray ended at the ground."""
+        interval = int(np.searchsorted(self.z, EYE)) - 1
+        r, z, slope = 0.0, EYE, math.tan(angle)
+        found = np.full(len(at), np.nan)
+        while r < max(at):
+            low, high = self.z[interval], self.z[interval + 1]
+
+            def leaves_below(_, y, low=low):
+                return y[0] - low
+
+            def leaves_above(_, y, high=high):
+                return y[0] - high
+
+            leaves_below.terminal = leaves_above.terminal = True
+            leaves_below.direction, leaves_above.direction = -1, 1
+            step = solve_ivp(
+                lambda _, y, i=interval: [y[1], self.bend(i, y[0])], (r, max(at)), [z, slope], method="DOP853",
+                rtol=1e-12, atol=1e-13, events=[leaves_below, leaves_above], dense_output=True, max_step=50.0,
+            )  # fmt: skip
+            for k, distance in enumerate(at):
+                if r <= distance <= step.t[-1]:
+                    found[k] = step.sol(distance)[0]
+            r, (z, slope) = step.t[-1], step.y[:, -1]
+            if step.t_events[0].size:
+                z, interval = low, interval - 1
+            elif step.t_events[1].size:
+                z, interval = high, interval + 1
+            if interval < 0:
+                return found, True
+            if interval >= len(self.gradient):
+                return found, False
+        return found, False
+
+
+def merman_air():
+    return SceneBuilder(eye=(0, 0, EYE), target=(-1, 0, EYE)).mirage(MERMAN_PROFILE, segments=300).build()
+
+
+@pytest.fixture(scope="module")
+def truth():
+    air = Air(MERMAN_PROFILE)
+    minutes = np.arange(-10, 10.01, 0.5)
+    angles = np.radians(minutes / 60)
+    solved = [air.heights(angle, DISTANCES) for angle in angles]
+    return angles, np.array([heights for heights, _ in solved]), [ground for _, ground in solved]
+
+
+@pytest.mark.parametrize(("finer", "millimetres"), [(1, 0.5), (8, 0.05)])
+def test_heights_agree_with_a_high_order_solution(truth, finer, millimetres):
+    angles, heights, grounded = truth
+    paths = trace_paths(merman_air(), angles, at=DISTANCES, finer=finer)
+    np.testing.assert_array_equal(np.isnan(paths.heights), np.isnan(heights))
+    worst = np.nanmax(np.abs(paths.heights - heights))
+    assert worst < millimetres * 1e-3, f"{worst * 1e3:.3f} mm"
+    ground_before = [end == "ground" and x < max(DISTANCES) for end, (x, _) in zip(paths.ends, paths.end_points, strict=True)]
+    assert ground_before == grounded
+    assert any(grounded)
+    assert not all(grounded)
+
+
+def test_crossings_follow_the_path():
+    ir = merman_air()
+    points = trace_crossings(ir, math.radians(-0.05))
+    np.testing.assert_array_equal(points[0], [0.0, EYE])
+    assert np.all(np.diff(points[:, 0]) > 0)
+    heights = trace_paths(ir, [math.radians(-0.05)], at=points[:, 0]).heights[0]
+    np.testing.assert_array_equal(heights, points[:, 1])
+    boundaries = {z for z, _ in MERMAN_PROFILE}
+    assert all(z in boundaries for z in points[1:, 1])
+
+
+def test_why_paths_end():
+    ir = merman_air()
+    ends = trace_paths(ir, np.radians([-1, 1, 0])).ends
+    assert ends[:2] == ["ground", "top"]
+    low = SceneBuilder(eye=(0, 0, EYE), target=(-1, 0, EYE)).mirage(MERMAN_PROFILE, elevation=3.0, distance=80.0)
+    steep, level = trace_paths(low.build(), np.radians([1, 0.01])).end_points
+    assert steep[1] == 3.0
+    assert level[0] == 80.0
+    few = SceneBuilder(eye=(0, 0, EYE), target=(-1, 0, EYE)).mirage(MERMAN_PROFILE, segments=3)
+    paths = trace_paths(few.build(), [math.radians(-1)])
+    assert (paths.ends, paths.arcs) == (["segments"], [3])
+
+
+def test_what_cannot_be_traced_is_said():
+    with pytest.raises(SceneError, match="no MIRAGE"):
+        trace_paths(SceneBuilder().build(), [0.0])
+    with pytest.raises(SceneError, match="outside of the temperature profile"):
+        trace_paths(merman_air(), [0.0], eye_height=20.0)
+    with pytest.raises(SceneError, match="absolute|-273.15"):
+        trace_paths(SceneBuilder(eye=(0, 0, 1)).mirage([(0, 0), (2, -300), (4, 0)]).build(), [0.0])

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, cast
 
 Shape = Literal["number", "integer", "vector"]
 Policy = Literal["error", "default", "limit", "warn"]
@@ -224,7 +224,7 @@ class Language:
 
 
 def _default(value: Any) -> Default:
-    return tuple(value) if isinstance(value, list) else value
+    return tuple(cast(list[float], value)) if isinstance(value, list) else value
 
 
 def _bounds(entry: Mapping[str, Any]) -> Bounds | None:

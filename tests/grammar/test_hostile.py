@@ -1,0 +1,88 @@
+"""Text that is no scene at all: nothing crashes, and nothing takes long or much memory."""
+
+from __future__ import annotations
+
+import random
+import time
+
+import pytest
+import tree_sitter_m3d
+from hypothesis import given
+from hypothesis import strategies as st
+from tree_sitter import Language, Parser, Tree
+from tree_sitter_m3d.formal import first_error
+
+DEEP = 10_000
+PARSER = Parser(Language(tree_sitter_m3d.language()))
+TEXTS = {
+    "braces": b"SOLID { " * DEEP,
+    "closed braces": b"SOLID { " * DEEP + b"} " * DEEP,
+    "braces alone": b"{" * DEEP,
+    "closing braces": b"}" * DEEP,
+    "comments": b"/*" * DEEP,
+    "closed comments": b"/*" * DEEP + b"*/" * DEEP,
+    "ends of comments": b"*/" * DEEP,
+    "vectors": b"<" * DEEP,
+    "assignments": b"x = " * DEEP,
+    "tables": b"FACETS { " * DEEP,
+    "commas": b"REGION 1" + b", 1" * DEEP,
+    "one word": b"x" * 1_000_000,
+    "one number": b"1" * 1_000_000,
+    "zeros": b"\0" * 100_000,
+    "binary": random.Random(1).randbytes(100_000),
+    "high bytes": bytes(range(128, 256)) * 500,
+}
+
+
+def nodes(tree: Tree) -> int:
+    """Walks the whole tree, however deep."""
+    cursor = tree.walk()
+    count = 1
+    while True:
+        if cursor.goto_first_child() or cursor.goto_next_sibling():
+            count += 1
+            continue
+        while cursor.goto_parent():
+            if cursor.goto_next_sibling():
+                count += 1
+                break
+        else:
+            return count
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_it_is_parsed(name: str) -> None:
+    start = time.monotonic()
+    tree = PARSER.parse(TEXTS[name])
+    assert tree.root_node.end_byte <= len(TEXTS[name])
+    assert 0 < nodes(tree) < 200_000
+    assert time.monotonic() - start < 20
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_the_formal_grammar_says_where_it_stops(name: str) -> None:
+    text = TEXTS[name].decode("latin-1")
+    fault = first_error(text)
+    assert name == "closed comments" or (fault is not None and 0 <= fault.offset <= len(text))
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes(data: bytes) -> None:
+    PARSER.parse(data)
+    first_error(data.decode("latin-1"))
+
+
+@given(st.lists(st.sampled_from(["SOLID", "FACETS", "{", "}", "<", ">", "1", ",", "x", "=", "/*", "*/", "\n"]), max_size=60))
+def test_any_tokens(tokens: list[str]) -> None:
+    text = " ".join(tokens)
+    tree = PARSER.parse(text.encode())
+    assert tree.root_node.end_byte <= len(text)
+    first_error(text)
+
+
+def test_a_broken_list_of_a_million_numbers() -> None:
+    """A letter at its end makes every number of the table a node: slower, but not without end."""
+    text = b"POLYGONS { FACETS { " + b"12345 " * 200_000 + b"x } }"
+    start = time.monotonic()
+    assert not PARSER.parse(text).root_node.has_error
+    assert time.monotonic() - start < 20

@@ -36,6 +36,7 @@ ANY_BODY = language.Block(
     thesis="",
 )
 
+_NONE: frozenset[str] = frozenset()
 _SHAPE_CODE = {"vector": "M3D0102", "number": "M3D0103", "integer": "M3D0103"}
 
 
@@ -145,7 +146,7 @@ class Checker:
         if target in LANGUAGE.basics:
             self._unknown.add(item.target.text)
         block = LANGUAGE.blocks.get(target or "")
-        body = None if item.body is None else self._members(item.body, block or ANY_BODY)
+        body, broken = (None, _NONE) if item.body is None else self._members(item.body, block or ANY_BODY)
         if target is None:
             return None
         if isinstance(value, ast.Name):
@@ -161,7 +162,7 @@ class Checker:
             self._findings.add("M3D0203", item.body.span, f"{item.target.text} is a {target}, not a structure")
             return None
         self._unknown.discard(item.target.text)
-        return program.Assignment(item.target, target, value, body, item.span)
+        return program.Assignment(item.target, target, value, body, broken, item.span)
 
     def _fits(self, value: ast.Argument, target: str) -> bool:
         """Whether a constant can be assigned to a variable of the type; checks the names in a vector."""
@@ -193,19 +194,23 @@ class Checker:
             seen = self._once if entry.keyword in LANGUAGE.top else seen
             first = self._only_once(entry.keyword, item.keyword.span, entry.once, seen)
         known = item.name is None or self._has_type(item.name, entry.keyword)
-        body = () if item.body is None else self._members(item.body, entry)
+        body, broken = ((), _NONE) if item.body is None else self._members(item.body, entry)
         if not first or not known:
             return None
-        return program.Block(entry, item.name, body, item.keyword, item.span)
+        return program.Block(entry, item.name, body, broken, item.keyword, item.span)
 
-    def _members(self, body: ast.Body, block: language.Block) -> tuple[program.Member, ...]:
+    def _members(self, body: ast.Body, block: language.Block) -> tuple[tuple[program.Member, ...], frozenset[str]]:
+        """The members of a body that are right, and the keywords of those that are not."""
         members: list[program.Member] = []
+        broken: set[str] = set()
         seen: dict[str, Span] = {}
         for item in body.items:
             member = self._member(item, block, seen)
             if member is not None:
                 members.append(member)
-        return tuple(members)
+            elif not isinstance(item, ast.Assignment):
+                broken.add(item.keyword.text)
+        return tuple(members), frozenset(broken)
 
     def _member(self, item: ast.Item, block: language.Block, seen: dict[str, Span]) -> program.Member | None:
         match item:

@@ -33,7 +33,7 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     findings = Findings()
     syntax = parse(source, findings)
     program = check(source, syntax.items, syntax.faulty, findings)
-    world = Evaluator(findings).run(program)
+    world = Evaluator(findings).run(program, syntax.faulty)
     ir = lower(world, source.name)
     diagnostics = sorted(dict.fromkeys(findings.found), key=lambda diagnostic: diagnostic.span)
     return Result(ir, tuple(diagnostics), source)

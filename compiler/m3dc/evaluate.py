@@ -27,7 +27,7 @@ INTEGER_LIMIT = 2**31 - 1
 
 
 class World(NamedTuple):
-    """All that a scene adds up to. `sun` says before which of the lights the sky's sun was made."""
+    """All that a scene adds up to. The lights are in the order they were made, the sky's sun among them."""
 
     scene: Record
     solids: tuple[Record, ...]
@@ -45,20 +45,29 @@ class Evaluator:
         self._solids: list[Record] = []
         self._lights: list[Record] = []
 
-    def run(self, items: tuple[program.Item, ...]) -> World:
-        """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings."""
+    def run(self, items: tuple[program.Item, ...], faulty: frozenset[int]) -> World:
+        """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
+
+        Of the items that start at a `faulty` byte, which are not whole, nothing is reported.
+        """
         for item in items:
             self._findings.base = item.start
-            match item.content:
-                case program.Assignment():
-                    self._assign(item.content)
-                case program.Block():
-                    self._top(item.content)
-                case declarations:
-                    for declaration in declarations:
-                        self._variables[declaration.name.text] = self._default(declaration)
+            before = len(self._findings.found)
+            self._item(item.content)
+            if item.start in faulty:
+                del self._findings.found[before:]
         self._findings.base = 0
         return World(self._scene, tuple(self._solids), tuple(self._lights), self._variables)
+
+    def _item(self, content: tuple[program.Declaration, ...] | program.Assignment | program.Block) -> None:
+        match content:
+            case program.Assignment():
+                self._assign(content)
+            case program.Block():
+                self._top(content)
+            case declarations:
+                for declaration in declarations:
+                    self._variables[declaration.name.text] = self._default(declaration)
 
     def _default(self, declaration: program.Declaration) -> Value:
         if declaration.type == "NUMBER":
@@ -79,6 +88,7 @@ class Evaluator:
         if isinstance(value, Record):
             value = value.copy(self._findings.absolute(item.span))
             if item.body is not None:
+                value.broken |= item.broken
                 self._body(value, item.body)
                 FINISH[value.block](value, self._findings, whole=False)
         self._variables[name] = value
@@ -86,6 +96,7 @@ class Evaluator:
     def _top(self, block: program.Block) -> None:
         if block.entry.keyword == "SCENE":
             self._scene.span = self._findings.absolute(block.span)
+            self._scene.broken = block.broken
             self._body(self._scene, block.body)
             FINISH["SCENE"](self._scene, self._findings, whole=True)
             return
@@ -98,6 +109,7 @@ class Evaluator:
         span = self._findings.absolute(block.span)
         source = None if block.source is None else self._variables[block.source.text]
         record = source.copy(span) if isinstance(source, Record) else Record(block.entry.keyword, span)
+        record.broken |= block.broken
         self._body(record, block.body)
         return record
 
@@ -135,6 +147,7 @@ class Evaluator:
             nested = record.nested.get(keyword)
             if nested is None:
                 nested = record.nested[keyword] = Record(keyword, self._findings.absolute(block.span))
+            nested.broken |= block.broken
             self._body(nested, block.body)
             FINISH[keyword](nested, self._findings, whole=True)
             if keyword == "SKY":

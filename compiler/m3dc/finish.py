@@ -33,7 +33,7 @@ def _three_points(record: Record, findings: Findings, *, whole: bool) -> None:
 
 
 def _solid(record: Record, findings: Findings, *, whole: bool) -> None:
-    if whole and not record.parts:
+    if whole and not record.parts and not record.broken:
         findings.add_at("M3D0306", record.span, "give it a SPHERE, PLANE, TRIANGLE, RECTANGLE, POLYGONS or TERRAIN")
 
 

@@ -119,16 +119,14 @@ def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
 
 def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mesh | None:
     grid = table.rows.reshape(rows, columns, 3)
-    # Each cell: a near corner, b along the rows (x), c opposite, d along the columns (y).
+    # Each cell: a the near corner, b the next along the rows (x), d along the columns (y), c opposite a.
     a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-    area = np.cross(c - a, d - b)
-    axis = int(np.abs(area.sum(axis=(0, 1))).argmax())
-    upwards = float(np.sign(area[..., axis].sum()) or 1.0)
-    corner_areas = [np.cross(q - p, r - q)[..., axis] for p, q, r in ((a, b, c), (a, c, d), (b, c, d), (a, b, d))]
-    crossed = ~(np.minimum.reduce(corner_areas) * upwards > 0) & ~(np.maximum.reduce(corner_areas) * upwards < 0)
-    crossed |= np.minimum.reduce([corner * upwards for corner in corner_areas]) <= 0
-    if crossed.any():
-        row, column = (int(i) for i in np.argwhere(crossed)[0])
+    halves = np.stack([np.cross(q - p, r - q) for p, q, r in ((a, b, c), (a, c, d), (b, c, d), (a, b, d))])
+    # The grid lies on the xy plane, or else on one of the other two: where no cell is folded when seen along the axis.
+    seen = [_folded(halves[..., axis]) for axis in (2, 0, 1)]
+    folded, upwards = next((view for view in seen if not view[0].any()), seen[0])
+    if folded.any():
+        row, column = (int(i) for i in np.argwhere(folded)[0])
         at = int(table.offsets[row * columns + column])
         detail = f"the cell at row {row + 1}, column {column + 1} folds over another"
         findings.add_at("M3D0409", (at, at + 1), detail)
@@ -141,6 +139,13 @@ def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mes
     normals = unit(np.cross(_along(grid, 0), _along(grid, 1)) * upwards).reshape(-1, 3)
     offsets = np.repeat(table.offsets[na.ravel()], 2)
     return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets)
+
+
+def _folded(areas: NDArray[np.float64]) -> tuple[NDArray[np.bool_], float]:
+    """Which cells turn over or have no area, of the signed areas (4, rows, columns) of their halves; and the sign of
+    those that do not."""
+    upwards = float(np.sign(areas.sum())) or 1.0
+    return np.logical_not((areas * upwards > 0).all(axis=0)), upwards
 
 
 def _along(grid: NDArray[np.float64], axis: int) -> NDArray[np.float64]:

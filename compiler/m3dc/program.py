@@ -38,11 +38,15 @@ class Table(NamedTuple):
 
 
 class Block(NamedTuple):
-    """A block; `source` is the variable it is a copy of, `body` what then changes it."""
+    """A block; `source` is the variable it is a copy of, `body` what then changes it.
+
+    `broken` are the keywords of members that were left out because they are wrong; nobody is to miss them.
+    """
 
     entry: language.Block
     source: Name | None
     body: tuple[Member, ...]
+    broken: frozenset[str]
     keyword: Keyword
     span: Span
 
@@ -58,12 +62,16 @@ class Declaration(NamedTuple):
 
 
 class Assignment(NamedTuple):
-    """`value` for a NUMBER or VECTOR; for a structure, `value` is the variable copied and `body` what changes it."""
+    """`value` for a NUMBER or VECTOR; for a structure, `value` is the variable copied and `body` what changes it.
+
+    `broken` is as a Block's.
+    """
 
     target: Name
     type: str
     value: Argument | None
     body: tuple[Member, ...] | None
+    broken: frozenset[str]
     span: Span
 
 

@@ -6,6 +6,7 @@ have stood there; from that set follows the message, in the words of the thesis'
 
 from __future__ import annotations
 
+import re
 from difflib import get_close_matches
 
 from tree_sitter import Node
@@ -19,22 +20,35 @@ from .ir import Span
 from .source import Source
 
 
+# Where a new top-level item begins, as one can tell after an error: at the start of a line. A type in a VARIABLES
+# block, which a name and a comma or semicolon follow, is none.
+_ITEM_START = re.compile(
+    r"^[ \t]*(?=(?:SCENE|VARIABLES)\b|(?:SOLID|LIGHT)\b(?!\s+\w+\s*[;,])|[A-Za-z]\w*\s*=)", re.MULTILINE
+)
+
+
 def report(source: Source, root: Node, faulty: list[Node], findings: Findings) -> None:
-    """One diagnostic for each stretch of neighbouring top-level nodes with an error in them."""
+    """What is wrong in the form of the faulty top-level nodes: the first fault of each item in them."""
     # One character a byte, so that the grammar's offsets are ours.
-    text = _without_tables(source.data, root).decode("latin-1")
-    stretches = _stretches(root, faulty)
-    for start, end in stretches:
-        stretch = text[start:end]
-        fault = first_error(stretch)
-        if fault is None:
-            # The text is a sentence although the tree has an error, or the error is where the stretch was cut.
-            fault = first_error(text[start:])
-        if fault is None:
+    text = blank_comments(_without_tables(source.data, root).decode("latin-1"))
+    for start, end in _stretches(root, faulty):
+        found = False
+        while start < end:
+            fault = first_error(text[start:end])
+            if fault is None and not found:
+                # The stretch reads as a sentence when it is cut here: it is what follows that does not fit.
+                fault = first_error(text[start:])
+            if fault is None:
+                break
+            found = True
+            _explain(fault, text[start:], start, findings)
+            item = _ITEM_START.search(text, max(start + fault.offset, start + 1), end)
+            if item is None or not fault.length:
+                break
+            start = item.end()
+        if not found:
             node = _first_error_node(next(n for n in faulty if n.start_byte >= start))
             findings.add("M3D0107", (node.start_byte, node.end_byte), "this can not be read here")
-        else:
-            _explain(fault, stretch, start, findings)
 
 
 def _stretches(root: Node, faulty: list[Node]) -> list[tuple[int, int]]:
@@ -98,9 +112,12 @@ def _explain(fault: SyntaxFault, text: str, base: int, findings: Findings) -> No
     found = f"found {token!r}" if token else "found the end of the text"
     expected = fault.expected
     marks = [_PUNCTUATION[name] for name in expected if name in _PUNCTUATION]
+    unclosed = not token or (fault.block is not None and token in LANGUAGE.top)
     if token == "*/":
         findings.add("M3D0105", span, "this closes a comment that was never opened")
-    elif not token and "RBRACE" in expected:
+    elif unclosed and "RBRACE" in expected:
+        end = base + len(text[: fault.offset].rstrip())
+        span = (end, end)
         opened = _open_brace(text[: fault.offset])
         related = (Related((base + opened, base + opened + 1), "the block that is open begins here"),)
         findings.add("M3D0101", span, found, fill="}", related=related)

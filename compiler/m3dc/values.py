@@ -45,7 +45,7 @@ class Record:
     `values` are the statements' arguments by keyword (a flag is a bool), `places` where each was last written;
     `nested` are the blocks there is one of (SURFACE, VIEW, ...), `parts` those there are many of (primitives,
     textures, waves); `transform` is the product of all TRANSFORM blocks, or, for a TRANSFORM, its own. `broken` are
-    the tables that could not be read, of which no more is to be said; `mesh` is what VERTICES and FACETS make.
+    the keywords of members that were wrong, of which no more is to be said; `mesh` is what VERTICES and FACETS make.
     """
 
     __slots__ = (

@@ -1,0 +1,176 @@
+"""The m3dc command, run as a person runs it: files, exit statuses, messages; and texts that are no scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from m3dc import m3ir
+
+GOOD = "SOLID { SPHERE { RADIUS 2 } }\n"
+BAD = "SOLID { SPHERE { RADIUS -2 } }\n"
+
+
+def m3dc(*arguments: object, text: bytes | None = None, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", "import sys; from m3dc.cli import main; sys.exit(main())", *map(str, arguments)]
+    done = subprocess.run(command, input=text, capture_output=True, cwd=cwd, timeout=120, check=False)
+    return subprocess.CompletedProcess(command, done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.m3d"
+    path.write_text(GOOD)
+    return path
+
+
+def test_the_ir_goes_beside_the_scene(scene: Path) -> None:
+    done = m3dc(scene)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert m3ir.read(scene.with_suffix(".m3ir"))["spheres"]["radius"].tolist() == [2]
+
+
+def test_output_check_and_dump(scene: Path, tmp_path: Path) -> None:
+    assert m3dc("-o", tmp_path / "other.m3ir", scene).returncode == 0
+    assert m3ir.read(tmp_path / "other.m3ir").source == str(scene)
+    (tmp_path / "other.m3ir").unlink()
+    assert m3dc("--check", scene).returncode == 0
+    assert "Radius ................... : 2.000000" in m3dc("--dump", scene).stdout
+    assert m3dc(f"--dump={tmp_path / 'dump.txt'}", scene).stdout == ""
+    assert "Scene Definition" in (tmp_path / "dump.txt").read_text()
+    assert {path.name for path in tmp_path.iterdir()} == {"scene.m3d", "dump.txt"}
+
+
+def test_standard_input(tmp_path: Path) -> None:
+    assert "Scene Definition" in m3dc("--dump", "-", text=GOOD.encode()).stdout
+    assert m3dc("-", text=GOOD.encode(), cwd=tmp_path).returncode == 2
+
+
+def test_errors_are_shown_with_their_place(scene: Path) -> None:
+    scene.write_text(BAD)
+    done = m3dc(scene)
+    assert done.returncode == 1
+    assert done.stdout == ""
+    lines = done.stderr.splitlines()
+    assert lines[0] == f"{scene}:1:25: error[M3D0401]: Sphere radius must be > 0"
+    assert lines[1:3] == ["    1 | SOLID { SPHERE { RADIUS -2 } }", "      |                         ^^"]
+    assert not scene.with_suffix(".m3ir").exists()
+
+
+def test_an_erroneous_scene_leaves_the_old_ir(scene: Path) -> None:
+    m3dc(scene)
+    before = scene.with_suffix(".m3ir").read_bytes()
+    scene.write_text(BAD)
+    assert m3dc(scene).returncode == 1
+    assert scene.with_suffix(".m3ir").read_bytes() == before
+
+
+def test_json_messages_count_characters_and_bytes(scene: Path) -> None:
+    scene.write_text("/* é */ SOLID { SPHERE { RADIUS -2 } }\n", encoding="utf-8")
+    done = m3dc("--message-format", "json", scene)
+    assert done.returncode == 1
+    assert json.loads(done.stdout) == {
+        "file": str(scene),
+        "code": "M3D0401",
+        "severity": "error",
+        "message": "Sphere radius must be > 0: RADIUS is -2, expected more than 0 and at most 1e+20",
+        "line": 1,
+        "column": 33,
+        "end_line": 1,
+        "end_column": 35,
+        "start_byte": 33,
+        "end_byte": 35,
+    }
+
+
+def test_warnings_do_not_fail(scene: Path) -> None:
+    scene.write_text("SOLID { SPHERE { } SURFACE { COLOR < 2, 0, 0 > } }")
+    done = m3dc(scene)
+    assert done.returncode == 0
+    assert "warning[M3D0402]" in done.stderr
+    assert scene.with_suffix(".m3ir").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [(), ("--nonsense", "a.m3d"), ("a.m3d", "b.m3d"), ("--check", "--dump", "a.m3d"), ("missing.m3d",), (".",)],
+)
+def test_usage_and_files_are_status_2(arguments: tuple[str, ...], tmp_path: Path) -> None:
+    done = m3dc(*arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "m3dc: " in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_folder_that_can_not_be_written(scene: Path, tmp_path: Path) -> None:
+    done = m3dc("-o", tmp_path / "no" / "such" / "folder" / "x.m3ir", scene)
+    assert done.returncode == 2
+    assert done.stderr.startswith("m3dc: cannot write ")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+def test_a_read_only_folder_keeps_its_file(scene: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "locked"
+    folder.mkdir()
+    (folder / "x.m3ir").write_bytes(b"old")
+    folder.chmod(0o500)
+    done = m3dc("-o", folder / "x.m3ir", scene)
+    folder.chmod(0o700)
+    assert done.returncode == 2
+    assert (folder / "x.m3ir").read_bytes() == b"old"
+
+
+HOSTILE = {
+    "empty": (b"", "M3D0112"),
+    "blank": (b" \n\t\n", "M3D0112"),
+    "only comments": (b"/* nothing /* at all */ */", "M3D0112"),
+    "binary": (bytes(range(256)) * 50, "M3D0113"),
+    "utf-16": ("SOLID { SPHERE { } }".encode("utf-16"), "M3D0113"),
+    "NaN": (b"SOLID { SPHERE { RADIUS NaN } }", "M3D0202"),
+    "1e400": (b"SOLID { SPHERE { RADIUS 1e400 } }", "M3D0114"),
+    "-1e400 in a table": (b"SCENE { MIRAGE { PROFILE { 0 1 10 2 -1e400 3 } } }", "M3D0114"),
+    "nested braces": (b"{" * 10_000, None),
+    "nested blocks": (b"SOLID { " * 10_000 + b"} " * 10_000, None),
+    "nested comments": (b"/*" * 10_000 + b"*/" * 10_000 + GOOD.encode(), ""),
+    "unclosed comments": (b"/*" * 10_000, "M3D0105"),
+    "closing comments": (b"*/" * 10_000, "M3D0105"),
+    "one long line": (b"SOLID { SPHERE { } } " * 20_000, ""),
+    "a long word": (b"x" * 1_000_000, None),
+    "a long number": (b"SOLID { SPHERE { RADIUS " + b"9" * 100_000 + b" } }", "M3D0114"),
+    "no end": (b"SOLID { SPHERE { RADIUS", None),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_text_ends_in_a_message(name: str, tmp_path: Path) -> None:
+    text, code = HOSTILE[name]
+    path = tmp_path / "scene.m3d"
+    path.write_bytes(text)
+    done = m3dc("--check", "--message-format", "json", path)
+    assert "Traceback" not in done.stderr
+    codes = [json.loads(line)["code"] for line in done.stdout.splitlines()]
+    if code == "":
+        assert (done.returncode, codes) == (0, [])
+    else:
+        assert done.returncode == 1
+        assert len(codes) <= 2 if name != "one long line" else True
+        assert code is None or code == codes[0]
+
+
+def test_a_truncated_example_never_crashes(examples: Path) -> None:
+    import m3dc as compiler
+
+    text = (examples / "runway.m3d").read_bytes()
+    for end in range(0, len(text), 37):
+        result = compiler.compile(text[:end])
+        assert result.diagnostics, f"cut off at byte {end}"
+
+
+def test_a_byte_order_mark_is_no_error(scene: Path) -> None:
+    scene.write_bytes(b"\xef\xbb\xbf" + GOOD.encode())
+    assert m3dc(scene).returncode == 0

@@ -3,8 +3,9 @@
 from collections.abc import Callable
 
 import numpy as np
-from m3dc.ir import SceneIR
 from numpy.typing import NDArray
+
+from m3dc.ir import SceneIR
 
 VERSION: str
 TEXTURE_KINDS: list[int]

@@ -15,19 +15,18 @@ import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from m3dc import m3ir, report
-from m3dc import compile as compile_scene
-from m3dc.ir import SceneIR
-
 from m3d_render import _kernel
 from m3d_render.picture import SUFFIXES, PictureError, check_suffix, plane_paths, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LARGEST_SIDE, Rendering, SceneError, missing_textures, prepare
+from m3dc import compile as compile_scene
+from m3dc import m3ir, report
+from m3dc.ir import SceneIR
 
 FINE, SCENE_ERROR, USAGE_ERROR, INTERRUPTED = 0, 1, 2, 130
 
 
-class _Failed(Exception):
+class _CommandError(Exception):
     """Ends the command with a status and, unless it has been said already, a message."""
 
     def __init__(self, status: int, message: str = "") -> None:
@@ -40,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         _run(options)
-    except _Failed as failure:
+    except _CommandError as failure:
         if str(failure):
             _say(f"error: {failure}")
         return failure.status
@@ -125,7 +124,7 @@ def _run(options: argparse.Namespace) -> None:
     try:
         write_picture(output, rendering.picture, metadata)
     except PictureError as error:
-        raise _Failed(USAGE_ERROR, str(error)) from None
+        raise _CommandError(USAGE_ERROR, str(error)) from None
     if options.stats:
         seconds = {
             "load": load,
@@ -153,7 +152,7 @@ def _render(ir: SceneIR, options: argparse.Namespace) -> Rendering:
             progress=progress,
         )
     except SceneError as error:
-        raise _Failed(SCENE_ERROR, f"{options.scene}: {error}") from None
+        raise _CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
     finally:
         if progress is not None:
             progress.clear()
@@ -164,16 +163,16 @@ def _check_output(output: Path) -> None:
     try:
         check_suffix(output)
     except PictureError as error:
-        raise _Failed(USAGE_ERROR, str(error)) from None
+        raise _CommandError(USAGE_ERROR, str(error)) from None
     folder = output.parent
     if not folder.is_dir():
         what = "is not a folder" if folder.exists() else "does not exist"
-        raise _Failed(USAGE_ERROR, f"{output}: the folder {folder} {what}; make it first, or choose another")
+        raise _CommandError(USAGE_ERROR, f"{output}: the folder {folder} {what}; make it first, or choose another")
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise _Failed(USAGE_ERROR, f"{output}: the folder {folder} does not allow writing")
+        raise _CommandError(USAGE_ERROR, f"{output}: the folder {folder} does not allow writing")
     for path in plane_paths(output) if output.suffix.lower() == ".raw" else [output]:
         if path.is_dir():
-            raise _Failed(USAGE_ERROR, f"{path}: a folder of this name is in the way of the picture")
+            raise _CommandError(USAGE_ERROR, f"{path}: a folder of this name is in the way of the picture")
 
 
 def _load(scene: str) -> SceneIR:
@@ -181,17 +180,17 @@ def _load(scene: str) -> SceneIR:
         try:
             return m3ir.read(Path(scene))
         except OSError as error:
-            raise _Failed(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
+            raise _CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
         except m3ir.FormatError as error:
-            raise _Failed(USAGE_ERROR, f"{scene}: {error}") from None
+            raise _CommandError(USAGE_ERROR, f"{scene}: {error}") from None
     try:
         source = sys.stdin.buffer.read() if scene == "-" else Path(scene).read_bytes()
     except OSError as error:
-        raise _Failed(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
+        raise _CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
     result = compile_scene(source, scene)
     report.print_human(result.diagnostics, result.source, sys.stderr)
     if not result.ok:
-        raise _Failed(SCENE_ERROR)
+        raise _CommandError(SCENE_ERROR)
     return result.ir
 
 
@@ -221,7 +220,7 @@ def _stats(rendering: Rendering, seconds: dict[str, float]) -> dict[str, object]
 def _peak_memory() -> int | None:
     """Bytes that the process has had in memory at most, where the system says."""
     try:
-        import resource  # noqa: PLC0415  not on Windows
+        import resource
     except ImportError:
         return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from m3dc.ir import SceneIR
 from numpy.typing import NDArray
 
 from m3d_render import _kernel
 from m3d_render.rendering import SceneError
+from m3dc.ir import SceneIR
 
 
 @dataclass(frozen=True, slots=True)

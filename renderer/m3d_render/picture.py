@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
@@ -70,7 +70,7 @@ def _write_planes(target: Path, picture: NDArray[np.floating]) -> list[Path]:
 
 
 def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mapping[str, str]) -> None:
-    import OpenImageIO as oiio  # noqa: PLC0415  20 MB that only a written picture needs
+    import OpenImageIO
 
     rows, columns, channels = picture.shape
     suffix = temporary.suffix.lower()
@@ -80,14 +80,16 @@ def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mappi
         pixels, kind = picture.astype(np.float32), "float"
     else:
         pixels, kind = np.rint(np.clip(picture, 0.0, 1.0) * 65535.0).astype(np.uint16), "uint16"
-    spec = oiio.ImageSpec(columns, rows, channels, kind)
+    spec = OpenImageIO.ImageSpec(columns, rows, channels, kind)
     for name, value in metadata.items():
         spec.attribute(name, value)
-    output = oiio.ImageOutput.create(str(temporary))
+    output = OpenImageIO.ImageOutput.create(str(temporary))
     if not output:
-        raise PictureError(f"no writer for {suffix}: {oiio.geterror()}")
+        raise PictureError(f"no writer for {suffix}: {OpenImageIO.geterror()}")
     try:
-        written = output.open(str(temporary), spec) and output.write_image(np.ascontiguousarray(pixels))
+        # The stub leaves one of its overloads open.
+        opened = output.open(str(temporary), spec)  # pyright: ignore[reportUnknownMemberType]
+        written = opened and output.write_image(np.ascontiguousarray(pixels))
         reason = output.geterror()
     finally:
         closed = output.close()
@@ -96,7 +98,7 @@ def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mappi
 
 
 @contextmanager
-def _replacing(targets: list[Path]) -> Iterator[list[Path]]:
+def _replacing(targets: list[Path]) -> Generator[list[Path]]:
     """Temporary files beside the targets, which take their place if all goes well and vanish if it does not."""
     temporaries: list[Path] = []
     try:

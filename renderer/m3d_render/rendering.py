@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from m3dc.ir import SceneIR, TextureKind
 from numpy.typing import NDArray
 
 from m3d_render import _kernel
+from m3dc.ir import SceneIR, TextureKind
 
 Picture: TypeAlias = NDArray[np.float32]
 Progress: TypeAlias = Callable[[int, int], object]
@@ -27,7 +27,7 @@ class SceneError(ValueError):
     """The scene cannot be rendered as it is, or not as asked."""
 
 
-class Cancelled(Exception):
+class Cancelled(Exception):  # noqa: N818  it is no error
     """The `cancel` callback ended the rendering."""
 
 

@@ -11,6 +11,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+
 from m3dc.ir import (
     TABLES,
     Ambient,
@@ -203,25 +204,17 @@ class SceneBuilder:
 def merman(width=320, height=200):
     """The thesis's first example: spheres and a rectangle 1.4 km away, seen through a strong inversion."""
     scene = SceneBuilder((1, 0, 2.1), (0, 0, 2.1001), 1.5, width, height, aspect=1.2)
-    scene.set(
-        log_scale=15.0, depth=3, ambient=Ambient(0.2, WHITE, 0, 0), haze=Haze(True, 0.0, (0.9, 0.9, 0.9), 0.0)
-    )
-    scene.sky(
-        -30, 20, radius=1e8, intensity=0.9, zenith_color=(0, 0, 0.9), horizon_color=(0.5, 0.7, 0.9)
-    )
+    scene.set(log_scale=15.0, depth=3, ambient=Ambient(0.2, WHITE, 0, 0), haze=Haze(True, 0.0, (0.9, 0.9, 0.9), 0.0))
+    scene.sky(-30, 20, radius=1e8, intensity=0.9, zenith_color=(0, 0, 0.9), horizon_color=(0.5, 0.7, 0.9))
     scene.mirage(MERMAN_PROFILE, segments=300, elevation=100.0)
     rainbow = scene.solid(
         color=(0.8, 0, 0), rough=0.2, hard=0.21, ambient=0.5, specular=0.3, refindex=1.4,
         textures=[(TextureKind.UBLEND, {"color": (0, 0.7, 0.9)})],
     )  # fmt: skip
     scene.sphere((-1400, 7, 2), 2, rainbow)
-    mirror = scene.solid(
-        color=(0.7, 0.7, 0.8), rough=0.2, hard=1, ambient=0.4, metallic=1, specular=1, refindex=1.4
-    )
+    mirror = scene.solid(color=(0.7, 0.7, 0.8), rough=0.2, hard=1, ambient=0.4, metallic=1, specular=1, refindex=1.4)
     scene.sphere((-1405, 4, 6), 2, mirror)
-    blue = scene.solid(
-        color=(0, 0, 0.9), rough=0.2, hard=0.2, metallic=0.5, ambient=0.4, specular=0.6, refindex=1.4
-    )
+    blue = scene.solid(color=(0, 0, 0.9), rough=0.2, hard=0.2, metallic=0.5, ambient=0.4, specular=0.6, refindex=1.4)
     scene.sphere((-1400, -6, -1), 3, blue)
     magenta = scene.solid(color=(0.8, 0, 0.7), rough=0.3, hard=0.8, ambient=0.2, specular=0.6, refindex=1.1)
     scene.sphere((-1400, -6, 4), 2, magenta)

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from m3d_render import SceneError
-from m3d_render.optics import trace_crossings, trace_paths
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 from scipy.integrate import solve_ivp
+
+from m3d_render import SceneError
+from m3d_render.optics import trace_crossings, trace_paths
 
 EPSILON, BETA, GRAVITY, EARTH, SEA_LEVEL = 226e-6, 3.48e-3, 9.80665, 6_371_000.0, 101_325.0
 EYE = 2.1
@@ -95,7 +96,9 @@ def test_heights_agree_with_a_high_order_solution(truth, finer, millimetres):
     np.testing.assert_array_equal(np.isnan(paths.heights), np.isnan(heights))
     worst = np.nanmax(np.abs(paths.heights - heights))
     assert worst < millimetres * 1e-3, f"{worst * 1e3:.3f} mm"
-    ground_before = [end == "ground" and x < max(DISTANCES) for end, (x, _) in zip(paths.ends, paths.end_points, strict=True)]
+    ground_before = [
+        end == "ground" and x < max(DISTANCES) for end, (x, _) in zip(paths.ends, paths.end_points, strict=True)
+    ]
     assert ground_before == grounded
     assert any(grounded)
     assert not all(grounded)
@@ -130,5 +133,5 @@ def test_what_cannot_be_traced_is_said():
         trace_paths(SceneBuilder().build(), [0.0])
     with pytest.raises(SceneError, match="outside of the temperature profile"):
         trace_paths(merman_air(), [0.0], eye_height=20.0)
-    with pytest.raises(SceneError, match="absolute|-273.15"):
+    with pytest.raises(SceneError, match=r"above -273\.15"):
         trace_paths(SceneBuilder(eye=(0, 0, 1)).mirage([(0, 0), (2, -300), (4, 0)]).build(), [0.0])

@@ -88,12 +88,7 @@ impl Scene {
             .num_threads(threads)
             .build()
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let mut pixels = Vec::new();
-        let values = columns.checked_mul(rows).and_then(|pixels| pixels.checked_mul(3));
-        match values.map(|values| (values, pixels.try_reserve_exact(values))) {
-            Some((values, Ok(()))) => pixels.resize(values, 0f32),
-            _ => return Err(PyMemoryError::new_err("the picture does not fit in memory")),
-        }
+        let mut pixels = zeros(columns, rows)?;
         let watch = Watch::default();
         let finished = Bell::default();
         let (tally, stopped) = std::thread::scope(|scope| {
@@ -127,6 +122,16 @@ impl Scene {
         }
         let array = PyArray1::from_vec(py, pixels).reshape([rows, columns, 3])?;
         Ok(Some((array, counts(py, &tally)?)))
+    }
+}
+
+/// Room for the pixels, which the system gives as they are written. That there is none is found out first: a failed
+/// `vec!` would end the process.
+fn zeros(columns: usize, rows: usize) -> PyResult<Vec<f32>> {
+    let values = columns.checked_mul(rows).and_then(|pixels| pixels.checked_mul(3));
+    match values {
+        Some(values) if Vec::<f32>::new().try_reserve_exact(values).is_ok() => Ok(vec![0.0; values]),
+        _ => Err(PyMemoryError::new_err("the picture does not fit in memory")),
     }
 }
 

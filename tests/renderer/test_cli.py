@@ -1,0 +1,143 @@
+"""The m3d-render command: exit status, messages, statistics."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import OpenImageIO
+import pytest
+from scene_builder import merman
+
+from m3dc import m3ir
+
+SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
+
+
+def command(*arguments, **options):
+    options = {"capture_output": True, "text": True, "timeout": 60, **options}
+    return subprocess.run([sys.executable, "-m", "m3d_render.cli", *map(str, arguments)], check=False, **options)
+
+
+@pytest.fixture
+def compiled(tmp_path):
+    path = tmp_path / "merman.m3ir"
+    m3ir.write(merman(32, 20).build(), path)
+    return path
+
+
+def test_a_compiled_scene_and_its_statistics(compiled, tmp_path):
+    done = command(compiled, "-o", tmp_path / "a.png", "--stats", "--threads", "2")
+    assert (done.returncode, done.stderr) == (0, "")
+    stats = json.loads(done.stdout)
+    assert set(stats["seconds"]) == {"load", "build", "trace", "write"}
+    assert stats["rays"]["eye"] == stats["rays"]["mirage"] == 640
+    assert stats["rays"]["shadow"] == 0
+    assert stats["arcs"] > 640
+    assert stats["peak_memory"] > 1_000_000
+    assert (stats["width"], stats["height"], stats["threads"]) == (32, 20, 2)
+    assert OpenImageIO.ImageBuf(str(tmp_path / "a.png")).spec().getattribute("ImageDescription") == "merman.m3ir"
+
+
+def test_options_change_the_picture(compiled, tmp_path):
+    def pixels(*options):
+        done = command(compiled, "-o", tmp_path / "a.exr", *options)
+        assert done.returncode == 0, done.stderr
+        return OpenImageIO.ImageBuf(str(tmp_path / "a.exr")).get_pixels(OpenImageIO.FLOAT)
+
+    plain = pixels()
+    assert pixels("--width", "16", "--height", "10").shape == (10, 16, 3)
+    for options in (["--straight"], ["--shadows"], ["--log-scale", "3"]):
+        assert not np.array_equal(pixels(*options), plain), options
+
+
+def test_a_source_text(tmp_path):
+    source = tmp_path / "scene.m3d"
+    source.write_text(SCENE)
+    done = command(source, "-o", tmp_path / "a.raw")
+    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    assert (tmp_path / "a.green.raw").read_bytes() == bytes([102]) * 96
+    piped = command("-", "-o", tmp_path / "b.raw", input=SCENE)
+    assert piped.returncode == 0, piped.stderr
+    assert (tmp_path / "b.blue.raw").read_bytes() == bytes([153]) * 96
+
+
+def test_a_scene_with_errors_is_status_1(tmp_path):
+    source = tmp_path / "scene.m3d"
+    source.write_text("SCENE { VIEW { FOV <1,2,3> } }")
+    done = command(source, "-o", tmp_path / "a.png")
+    assert done.returncode == 1
+    assert "scene.m3d:1:" in done.stderr
+    assert not (tmp_path / "a.png").exists()
+
+
+def test_a_scene_that_cannot_be_rendered_is_status_1(tmp_path):
+    path = tmp_path / "high.m3ir"
+    scene = merman(4, 4)
+    scene.rows["profile"] = [row for row in scene.rows["profile"] if row["elevation"] < 2]
+    m3ir.write(scene.build(), path)
+    done = command(path, "-o", tmp_path / "a.png")
+    assert done.returncode == 1
+    assert "outside of the temperature profile, 0 to 1.9" in done.stderr
+    assert "straight rays" in done.stderr
+    assert command(path, "-o", tmp_path / "a.png", "--straight").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["none.m3d", "-o", "a.png"], "none.m3d: No such file or directory"),
+        (["none.m3ir", "-o", "a.png"], "none.m3ir: No such file or directory"),
+        (["binary.m3ir", "-o", "a.png"], "binary.m3ir: "),
+        (["scene.m3d", "-o", "a.jpg"], "one of .png"),
+        (["scene.m3d", "-o", "picture"], "no suffix"),
+        (["scene.m3d", "-o", "none/a.png"], "the folder none does not exist"),
+        (["scene.m3d", "-o", "scene.m3d/a.png"], "is not a folder"),
+        (["scene.m3d", "-o", "folder.png"], "in the way"),
+        (["folder.png", "-o", "a.png"], "Is a directory"),
+        (["scene.m3d"], "-o"),
+        (["scene.m3d", "-o", "a.png", "--width", "0"], "not from 1 to 65535"),
+        (["scene.m3d", "-o", "a.png", "--height", "x"], "a whole number is expected"),
+        (["scene.m3d", "-o", "a.png", "--log-scale", "nan"], "a number is expected"),
+        (["scene.m3d", "-o", "a.png", "--depth", "0"], "not from 1"),
+        (["scene.m3d", "-o", "a.png", "--nonsense"], "unrecognized"),
+    ],
+)
+def test_usage_and_files_are_status_2(tmp_path, arguments, says):
+    (tmp_path / "scene.m3d").write_text(SCENE)
+    (tmp_path / "binary.m3ir").write_bytes(bytes(range(256)))
+    (tmp_path / "folder.png").mkdir()
+    before = sorted(entry.name for entry in tmp_path.iterdir())
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path[1:]))}
+    done = command(*arguments, cwd=tmp_path, env=environment)
+    assert done.returncode == 2, done.stderr
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == before
+
+
+def test_an_interrupt_is_status_130_and_leaves_the_old_picture(compiled, tmp_path):
+    picture = tmp_path / "a.png"
+    picture.write_text("old")
+    arguments = [compiled, "-o", picture, "--width", "20000", "--height", "20000"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "m3d_render.cli", *map(str, arguments)], stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(3)
+    process.send_signal(signal.SIGINT)
+    started = time.monotonic()
+    _, said = process.communicate(timeout=30)
+    assert time.monotonic() - started < 5
+    assert process.returncode == 130
+    assert "interrupted" in said
+    assert "Traceback" not in said
+    assert picture.read_text() == "old"
+
+
+def test_the_command_starts_without_what_it_does_not_need():
+    code = "import sys, m3d_render.cli; print(sorted({'OpenImageIO', 'pygls', 'pyvista', 'scipy'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

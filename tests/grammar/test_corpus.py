@@ -38,7 +38,9 @@ def tree(text: str) -> str:
     """The syntax tree as an S-expression, a named node a line."""
     lines: list[str] = []
     depth = 0
-    for token in re.findall(r"[a-z]+: |\((?:MISSING|UNEXPECTED) [^)]+\)|\(\w+|\)", str(PARSER.parse(text.encode()).root_node)):
+    for token in re.findall(
+        r"[a-z]+: |\((?:MISSING|UNEXPECTED) [^)]+\)|\(\w+|\)", str(PARSER.parse(text.encode()).root_node)
+    ):
         if token.startswith("("):
             field = lines.pop() if lines and lines[-1].endswith(": ") else "  " * depth
             lines.append(field + token)
@@ -57,9 +59,7 @@ def test_the_tree_is_the_expected_one(case: Case) -> None:
 
 
 def test_the_corpus_is_read_whole() -> None:
-    assert len(list(cases())) == sum(
-        file.read_text(encoding="utf-8").count("\n---\n") for file in CORPUS.glob("*.txt")
-    )
+    assert len(list(cases())) == sum(file.read_text(encoding="utf-8").count("\n---\n") for file in CORPUS.glob("*.txt"))
 
 
 def rewrite() -> None:

@@ -138,7 +138,9 @@ def test_the_node_types_that_the_compiler_relies_on() -> None:
 
 
 def test_importing_the_package_is_cheap() -> None:
-    code = "import sys, tree_sitter_m3d; print([m for m in ('lark', 'numpy', 'json', 'tree_sitter') if m in sys.modules])"
+    code = (
+        "import sys, tree_sitter_m3d; print([m for m in ('lark', 'numpy', 'json', 'tree_sitter') if m in sys.modules])"
+    )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "[]"
 

@@ -72,7 +72,11 @@ def test_any_bytes(data: bytes) -> None:
     first_error(data.decode("latin-1"))
 
 
-@given(st.lists(st.sampled_from(["SOLID", "FACETS", "{", "}", "<", ">", "1", ",", "x", "=", "/*", "*/", "\n"]), max_size=60))
+@given(
+    st.lists(
+        st.sampled_from(["SOLID", "FACETS", "{", "}", "<", ">", "1", ",", "x", "=", "/*", "*/", "\n"]), max_size=60
+    )
+)
 def test_any_tokens(tokens: list[str]) -> None:
     text = " ".join(tokens)
     tree = PARSER.parse(text.encode())

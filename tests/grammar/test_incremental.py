@@ -16,7 +16,24 @@ SCENE { SHADOWS AMBIENT { INTENSITY 0.3 } VIEW { REGION 0, 1, 2, 3 } }
 SOLID house { POLYGONS { FACETS { 2 /* two */ 0 1 2
  3 4 5 } VERTICES { 1 < 0, 1, x > } } }
 """
-PIECES = [b"", b" ", b"\n", b"{", b"}", b"/*", b"*/", b"<", b",", b"RADIUS", b"SOLID", b"x", b"1", b"=", b";", b"\xc3\xa9"]
+PIECES = [
+    b"",
+    b" ",
+    b"\n",
+    b"{",
+    b"}",
+    b"/*",
+    b"*/",
+    b"<",
+    b",",
+    b"RADIUS",
+    b"SOLID",
+    b"x",
+    b"1",
+    b"=",
+    b";",
+    b"\xc3\xa9",
+]
 
 
 def point(data: bytes, offset: int) -> Point:
@@ -41,7 +58,9 @@ def leaves(node: Node) -> list[tuple[str, int, int, bool]]:
 
 
 edits = st.lists(
-    st.tuples(st.integers(0, len(SCENE)), st.integers(0, 12), st.lists(st.sampled_from(PIECES), max_size=3).map(b"".join)),
+    st.tuples(
+        st.integers(0, len(SCENE)), st.integers(0, 12), st.lists(st.sampled_from(PIECES), max_size=3).map(b"".join)
+    ),
     min_size=1,
     max_size=3,
 )

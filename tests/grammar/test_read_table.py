@@ -21,7 +21,9 @@ numerals = st.builds(
         st.sampled_from(["", "+", "-"]),
         digits,
         st.one_of(st.just(""), digits.map(lambda text: f".{text}")),
-        st.one_of(st.just(""), st.builds("{}{}{}".format, st.sampled_from("eE"), st.sampled_from(["", "+", "-"]), digits)),
+        st.one_of(
+            st.just(""), st.builds("{}{}{}".format, st.sampled_from("eE"), st.sampled_from(["", "+", "-"]), digits)
+        ),
     ),
 )
 blanks = st.sampled_from([" ", "\n", "\t ", "\r\n", " /* 1 */ ", "/* a /* b */ < */"])

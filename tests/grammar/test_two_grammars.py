@@ -1,0 +1,90 @@
+"""The two grammars describe one language.
+
+A sentence made from the formal grammar, and the same with something put in, taken out or exchanged, is accepted by both
+or rejected by both. On the formal side that is `first_error`; on the other, the tree-sitter grammar, which is
+permissive about which keyword stands where, together with the compiler's check against the table.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.lark import from_lark
+from m3dc.check import structural_faults
+from m3dc.source import Source
+from tree_sitter_m3d.formal import first_error, parser
+from tree_sitter_m3d.table import LANGUAGE
+
+# How a terminal is spelt. A blank follows each, so that no two become one; blanks are taken out again below.
+SPELLINGS: dict[str, st.SearchStrategy[str]] = {
+    "IDENTIFIER": st.sampled_from(["x", "the_ground", "F15", "Sphere", "e5", "SOLIDS", "SPHERE_2", "a" * 300]),
+    "NUMERAL": st.sampled_from(["0", "-1", "+2.50", "1e3", "4.8E-10", "007", "1e999", "3"]),
+    "BLANK": st.sampled_from([" ", "\n", "\t", "\r\n", "/* < */ ", "/* a /* } */ b */"]),
+    **{keyword: st.just(keyword) for keyword in LANGUAGE.keywords - set(LANGUAGE.reserved)},
+}
+sentences = from_lark(
+    parser(), explicit={name: words.map(lambda word: f"{word} ") for name, words in SPELLINGS.items()}
+)
+TOKEN = re.compile(r"/\*.*?\*/|[^\s{}<>,;=]+|\S", re.DOTALL)
+pieces = st.one_of(
+    st.sampled_from(sorted(LANGUAGE.keywords)),
+    st.sampled_from([*"{}<>,;=", "x", "y", "1", "2", "< 1, 2, 3 >", "{ }", "SOLID { }", "x = 1"]),
+    st.sampled_from(["1.", ".5", "1e", "1.2.3", "--1", "-", "5x", "_x", "/*", "*/", "/", "@", "é", '"']),
+)
+
+
+@st.composite
+def nearly_sentences(draw: Any) -> str:
+    """A sentence of at most some dozens of tokens with a change or two in it."""
+    tokens = TOKEN.findall(draw(sentences))[:80]
+    for _ in range(draw(st.integers(1, 2))):
+        at = draw(st.integers(0, len(tokens)))
+        tokens[at : at + draw(st.integers(0, 2))] = draw(st.lists(pieces, max_size=2))
+    return " ".join(tokens)
+
+
+def agree(text: str) -> None:
+    fault = first_error(text)
+    faults = structural_faults(Source(text.encode()))
+    assert (fault is None) == (faults == []), f"formal grammar: {fault}; compiler: {faults}"
+
+
+@given(sentences)
+def test_sentences_are_accepted_by_both(text: str) -> None:
+    assert first_error(text) is None
+    assert structural_faults(Source(text.encode())) == []
+
+
+@given(nearly_sentences())
+def test_what_is_nearly_a_sentence_is_judged_alike(text: str) -> None:
+    agree(text)
+
+
+@given(st.lists(pieces, max_size=8).map(" ".join))
+def test_pieces_are_judged_alike(text: str) -> None:
+    agree(text)
+
+
+@given(nearly_sentences(), st.data())
+def test_characters_taken_out_are_judged_alike(text: str, data: st.DataObject) -> None:
+    """So that tokens meet without a blank between them."""
+    at = data.draw(st.integers(0, len(text)))
+    agree(text[:at] + text[at + data.draw(st.integers(1, 3)) :])
+
+
+def test_members_of_every_block() -> None:
+    """Every keyword in every block, in every form: as a flag, with up to four arguments, as a block, as a table."""
+    forms = ["", "1", "x", "< 1, 2, 3 >", "1, 2", "1, 2, 3, 4", "{ }", "x { }", "{ 1 2 3 < 1, 2, 3 > }", "= 1"]
+    unlike = {block.members(): keyword for keyword, block in LANGUAGE.blocks.items()}
+    for block in (*unlike.values(), "VARIABLES", None):
+        for keyword in sorted(LANGUAGE.keywords):
+            for form in forms:
+                text = f"{keyword} {form}"
+                place = block
+                while place is not None:
+                    text = f"{place} {{ {text} }}"
+                    place = next(iter(LANGUAGE.parents.get(place, ())), None)
+                agree(text)

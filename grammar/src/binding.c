@@ -100,7 +100,14 @@ static PyMethodDef methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
+static int prepare(PyObject *module) {
+    (void)module;
+    table_reader_prepare();
+    return 0;
+}
+
 static PyModuleDef_Slot slots[] = {
+    {Py_mod_exec, (void *)prepare},
     {0, NULL},
 };
 

@@ -13,16 +13,19 @@
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-/* strtod whatever the decimal point of the process's locale. */
-static double strtod_in_c_locale(const char *text) {
 #ifdef _WIN32
-    static _locale_t c_locale;
-    if (!c_locale) c_locale = _create_locale(LC_ALL, "C");
-    return _strtod_l(text, NULL, c_locale);
+#define locale_t _locale_t
+#define strtod_l _strtod_l
+#endif
+
+static locale_t c_locale;
+
+void table_reader_prepare(void) {
+    if (c_locale) return;
+#ifdef _WIN32
+    c_locale = _create_locale(LC_ALL, "C");
 #else
-    static locale_t c_locale; /* made twice, and one copy lost, when two threads come here first at once */
-    if (!c_locale) c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return c_locale ? strtod_l(text, NULL, c_locale) : strtod(text, NULL);
+    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 #endif
 }
 
@@ -36,7 +39,7 @@ static double slow_value(const uint8_t *from, const uint8_t *to) {
     }
     memcpy(copy, from, length);
     copy[length] = '\0';
-    double value = strtod_in_c_locale(copy);
+    double value = c_locale ? strtod_l(copy, NULL, c_locale) : strtod(copy, NULL);
     if (copy != small) free(copy);
     return value;
 }

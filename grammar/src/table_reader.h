@@ -24,6 +24,9 @@ typedef struct {
     const char *expected; /* at the place where it stopped; NULL: the text ended with a whole row */
 } TableReader;
 
+/* To be called once, before all else: numbers are read with a point, whatever the locale of the process. */
+void table_reader_prepare(void);
+
 /* False when a layout is not one. */
 bool table_reader_init(TableReader *reader, const uint8_t *text, size_t start, size_t end, const char *head,
                        const char *row);

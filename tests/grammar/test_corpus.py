@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-import tree_sitter_m3d
 from tree_sitter import Language, Parser
+
+import tree_sitter_m3d
 
 CORPUS = Path(__file__).parents[2] / "grammar/test/corpus"
 CASE = re.compile(

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lark.exceptions import UnexpectedInput
+
 from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.formal import END, first_error, parser
 from tree_sitter_m3d.table import LANGUAGE

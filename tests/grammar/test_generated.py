@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
-import tree_sitter_m3d
 from tree_sitter import Language, Parser
+
+import tree_sitter_m3d
 from tree_sitter_m3d.formal import first_error, parser
 from tree_sitter_m3d.table import LANGUAGE
 

@@ -1,4 +1,4 @@
-"""The editor queries: what the highlight query captures, by assertions in grammar/test/highlight, and that all compile."""
+"""The editor queries: what the highlight query captures, by assertions in grammar/test/highlight; and all compile."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import tree_sitter_m3d
 from tree_sitter import Language, Node, Parser, Query, QueryCursor
+
+import tree_sitter_m3d
 
 HIGHLIGHT = Path(__file__).parents[2] / "grammar/test/highlight"
 LANGUAGE = Language(tree_sitter_m3d.language())

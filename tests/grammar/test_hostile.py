@@ -6,10 +6,11 @@ import random
 import time
 
 import pytest
-import tree_sitter_m3d
 from hypothesis import given
 from hypothesis import strategies as st
 from tree_sitter import Language, Parser, Tree
+
+import tree_sitter_m3d
 from tree_sitter_m3d.formal import first_error
 
 DEEP = 10_000

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import tree_sitter_m3d
 from hypothesis import example, given
 from hypothesis import strategies as st
 from tree_sitter import Language, Node, Parser, Point, Tree
+
+import tree_sitter_m3d
 
 PARSER = Parser(Language(tree_sitter_m3d.language()))
 SCENE = b"""\

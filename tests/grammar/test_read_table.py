@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+
 from tree_sitter_m3d import Stop, TableData, read_table
 
 LAYOUTS = [("n", "nnn"), ("n", "nnnvvv"), ("", "nn"), ("", "nnvv"), ("nn", "v"), ("n", "v"), ("v", "n")]

@@ -13,6 +13,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
+
 from m3dc.check import structural_faults
 from m3dc.source import Source
 from tree_sitter_m3d.formal import first_error, parser

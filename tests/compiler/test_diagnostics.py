@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import m3dc
 import pytest
 from marks import mark, marks, with_marks, without_marks
+
+import m3dc
 
 SCENES = sorted((Path(__file__).parent / "diagnostics").glob("*.m3d"))
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import m3dc
 import pytest
+
+import m3dc
 from m3dc.dump import dump, lines
 
 HERE = Path(__file__).parent
@@ -50,7 +51,9 @@ def test_what_appendix_d_does_not_show() -> None:
         SOLID {
             POLYGONS { PHONG VERTICES { 3 <0,0,0> <1,0,0> <0,1,0> } SFACETS { 1 0 1 2 <0,0,1> <0,0,1> <0,1,1> } }
             TRIANGLE { }
-            SURFACE { TEXTURE { WOOD { COLORS { 0 1 <1,0,0> <0,1,0> } } WAVES { WAVE { FREQ 2 } } SNOW { ELEVATION 0.5 } } }
+            SURFACE { TEXTURE {
+                WOOD { COLORS { 0 1 <1,0,0> <0,1,0> } } WAVES { WAVE { FREQ 2 } } SNOW { ELEVATION 0.5 }
+            } }
         }
         LIGHT { SPHERE { RADIUS 0.5 } SOURCE { POINT FROM <0,0,5> ANGLE 30 EXPONENT 4 } }
     """

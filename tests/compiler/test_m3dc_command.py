@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from m3dc import m3ir
 
 GOOD = "SOLID { SPHERE { RADIUS 2 } }\n"

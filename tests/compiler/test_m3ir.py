@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import m3dc
 import numpy as np
 import pytest
+
+import m3dc
 from m3dc import m3ir
 from m3dc.ir import TABLES, SceneIR
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-import m3dc
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from m3dc.lower import beckmann_maximum, fresnel
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
+
+import m3dc
+from m3dc.lower import beckmann_maximum, fresnel
 
 
 def compiled(text: str) -> m3dc.SceneIR:
@@ -83,7 +84,10 @@ def test_a_surface_is_replaced_by_a_name_and_changed_by_a_block() -> None:
 def test_textures_waves_and_color_ranges_add_up() -> None:
     text = """SOLID { SPHERE { } SURFACE {
         TEXTURE { CHECKER { } }
-        TEXTURE { WOOD { COLORS { 0 0.2 <1,0,0> <1,0,0> } COLORS { 0.2 1 <0,1,0> <0,0,1> } } RIPPLES { WAVE { } WAVE { FREQ 2 } } }
+        TEXTURE {
+            WOOD { COLORS { 0 0.2 <1,0,0> <1,0,0> } COLORS { 0.2 1 <0,1,0> <0,0,1> } }
+            RIPPLES { WAVE { } WAVE { FREQ 2 } }
+        }
     } }"""
     ir = compiled(text)
     assert ir["surfaces"]["texture_count"].tolist() == [3]

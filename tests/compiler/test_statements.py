@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import m3dc
 import numpy as np
 import pytest
+
+import m3dc
 from m3dc.ir import LightKind, SceneIR, TextureKind
 from tree_sitter_m3d.table import LANGUAGE
 
@@ -115,7 +116,7 @@ CASES = {
     ("TRANSFORM", "SCALEX"): (sphere_matrix("SCALEX 2"), primitive_matrix, scaled(2, 1, 1)),
     ("TRANSFORM", "SCALEY"): (sphere_matrix("SCALEY 2"), primitive_matrix, scaled(1, 2, 1)),
     ("TRANSFORM", "SCALEZ"): (sphere_matrix("SCALEZ 2"), primitive_matrix, scaled(1, 1, 2)),
-    # Seen from the positive end of its axis a turn is counter-clockwise: x turns y to z, y turns z to x, z turns x to y.
+    # Seen from an axis's positive end a turn is counter-clockwise: y to z about x, z to x about y, x to y about z.
     ("TRANSFORM", "ROTATE"): (
         sphere_matrix("ROTATE <90,0,90>"),
         primitive_matrix,

@@ -1,0 +1,101 @@
+"""The examples of the documentation work: scenes compile, commands run, Python runs, messages are what is printed."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import m3dc
+from m3dc import m3ir
+from m3dc.report import print_human
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+COMMANDS = {"m3dc": "m3dc.cli", "m3d-render": "m3d_render.cli", "m3d-rays": "m3d_render.rays_cli"}
+
+
+def blocks(language: str) -> list[tuple[str, str]]:
+    return [
+        (f"{page.name}-{number}", text)
+        for page in PAGES
+        for number, (name, text) in enumerate(FENCE.findall(page.read_text(encoding="utf-8")))
+        if name == language
+    ]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder like a checkout after `make demo`."""
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    (tmp_path / "out").mkdir()
+    m3ir.write(m3dc.compile((ROOT / "examples/merman.m3d").read_bytes()).ir, tmp_path / "out/merman.m3ir")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def ids(block: tuple[str, str]) -> str:
+    return block[0]
+
+
+@pytest.mark.parametrize("block", blocks("m3d"), ids=ids)
+def test_scenes_compile(block: tuple[str, str]) -> None:
+    assert m3dc.compile(block[1]).diagnostics == ()
+
+
+@pytest.mark.parametrize("block", blocks("python"), ids=ids)
+def test_python_runs(block: tuple[str, str], folder: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", block[1]], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def commands() -> list[str]:
+    lines = [line.split("#")[0].strip() for _, text in blocks("") for line in text.splitlines()]
+    return [line for line in lines if line.split(" ")[0] in COMMANDS]
+
+
+def test_commands_run(folder: Path) -> None:
+    assert commands()
+    for line in commands():
+        name, *arguments = shlex.split(line)
+        program = f"import sys; from {COMMANDS[name]} import main; sys.exit(main())"
+        done = subprocess.run(
+            [sys.executable, "-c", program, *arguments], cwd=folder, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, f"{line}\n{done.stderr}"
+
+
+def test_the_readmes_error_is_what_is_printed() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (shown,) = (text for _, text in FENCE.findall(readme) if text.startswith("first.m3d:"))
+    (scene,) = (text for name, text in FENCE.findall(readme) if name == "m3d")
+    result = m3dc.compile(scene.replace("ZENITH", "ZENIT"), "first.m3d")
+    printed = io.StringIO()
+    print_human(result.diagnostics, result.source, printed)
+    assert printed.getvalue().startswith(shown)
+
+
+def test_links_lead_somewhere() -> None:
+    for page in [*PAGES, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]:
+        for link in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
+            if not link.startswith("http"):
+                assert (page.parent / link).exists(), f"{page.name}: {link}"
+
+
+def test_the_m3ir_page_is_current() -> None:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "docs")}
+    done = subprocess.run(
+        [sys.executable, "-c", "import m3ir; print(m3ir.page(), end='')"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == (ROOT / "docs/m3ir.md").read_text(encoding="utf-8")

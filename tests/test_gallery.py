@@ -1,0 +1,38 @@
+"""The pictures of the documentation are what the examples render to: `make gallery` writes them anew."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import OpenImageIO
+import pytest
+
+SCRIPT = Path(__file__).parent.parent / "docs" / "gallery.py"
+
+# Another processor's exp or cos may round another way: a step of 8 bits anywhere, and an edge here and there.
+STEPS = 2
+EDGE_PIXELS = 0.002
+
+
+def load() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("gallery", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+GALLERY = load()
+
+
+@pytest.mark.parametrize("what", GALLERY.PICTURES, ids=lambda what: what.name)
+def test_picture_is_current(what) -> None:
+    stored = OpenImageIO.ImageBuf(str(GALLERY.IMAGES / f"{what.name}.png")).get_pixels(OpenImageIO.UINT8)
+    fresh = np.rint(GALLERY.render(what) * 255).astype(int)
+    assert fresh.shape == stored.shape
+    differs = np.abs(fresh - stored).max(axis=-1) > STEPS
+    assert differs.mean() <= EDGE_PIXELS, f"{differs.sum()} pixels differ; look at them, then `make gallery`"

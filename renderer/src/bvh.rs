@@ -25,6 +25,7 @@ pub struct Boxes {
 }
 
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 struct Node {
     boxes: Boxes,
     /// A node's number, or the first item of a leaf.
@@ -42,11 +43,14 @@ pub struct Item {
 
 /// A shape's bounds, widened to f32. None where a coordinate is not a number or too large for the tree.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounds(Aabb);
+pub struct Bounds {
+    low: [f32; 3],
+    high: [f32; 3],
+}
 
 impl Boundable for Bounds {
     fn aabb(&self) -> Aabb {
-        self.0
+        Aabb::new(Vec3A::from(self.low), Vec3A::from(self.high))
     }
 }
 
@@ -61,12 +65,7 @@ impl Bounds {
             let rounded = x as f32;
             if f64::from(rounded) < x { rounded.next_up() } else { rounded }
         };
-        within.then(|| {
-            Self(Aabb::new(
-                Vec3A::new(down(low.x), down(low.y), down(low.z)),
-                Vec3A::new(up(high.x), up(high.y), up(high.z)),
-            ))
-        })
+        within.then(|| Self { low: low.to_array().map(down), high: high.to_array().map(up) })
     }
 }
 
@@ -91,7 +90,7 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    pub fn build(bounds: &[Bounds], items: &[Item], unbounded: Vec<ShapeId>) -> Self {
+    pub fn build(bounds: Vec<Bounds>, items: Vec<Item>, unbounded: Vec<ShapeId>) -> Self {
         if bounds.is_empty() {
             return Self { unbounded, ..Self::default() };
         }
@@ -101,11 +100,12 @@ impl Bvh {
             ..BvhBuildParams::fast_build()
         };
         let mut duration = Duration::ZERO;
-        let binary = build_bvh2(bounds, params, &mut duration);
+        let binary = build_bvh2(&bounds, params, &mut duration);
+        drop(bounds);
         let items = binary.primitive_indices.iter().map(|&i| items[i as usize]).collect();
         let mut tree = Self { items, unbounded, ..Self::default() };
         let root = binary.nodes[0];
-        let (low, high) = (root.aabb.min.to_array(), root.aabb.max.to_array());
+        let (low, high) = (root.min.to_array(), root.max.to_array());
         for axis in 0..3 {
             tree.reach[axis] = low[axis].abs().max(high[axis].abs());
         }
@@ -124,7 +124,7 @@ impl Bvh {
             while count < 4 {
                 let largest =
                     (0..count).filter(|&i| binary[members[i] as usize].prim_count == 0).max_by(|&i, &j| {
-                        let area = |k: usize| binary[members[k] as usize].aabb.half_area();
+                        let area = |k: usize| binary[members[k] as usize].aabb().half_area();
                         area(i).total_cmp(&area(j))
                     });
                 let Some(largest) = largest else { break };
@@ -143,8 +143,8 @@ impl Bvh {
             for (slot, &member) in members.iter().take(count).enumerate() {
                 let node = binary[member as usize];
                 for axis in 0..3 {
-                    low[axis][slot] = node.aabb.min[axis];
-                    high[axis][slot] = node.aabb.max[axis];
+                    low[axis][slot] = node.min[axis];
+                    high[axis][slot] = node.max[axis];
                 }
                 child[slot] = node.first_index;
                 prims[slot] = node.prim_count;
@@ -155,6 +155,15 @@ impl Bvh {
             let sides = [0, 1, 2].map(|axis| [f32x4::from(low[axis]), f32x4::from(high[axis])]);
             self.nodes.push(Node { boxes: Boxes { sides }, child, count: prims });
         }
+    }
+
+    /// The shapes in the tree, in its order.
+    pub fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty() && self.unbounded.is_empty()
     }
 
     /// Constants of the slab test along one axis.

@@ -243,7 +243,7 @@ impl Gathering {
     }
 
     fn tree(self) -> Bvh {
-        Bvh::build(&self.bounds, &self.items, self.unbounded)
+        Bvh::build(self.bounds, self.items, self.unbounded)
     }
 }
 

@@ -85,18 +85,30 @@ pub struct Path<'a> {
     r: f64,
     z: f64,
     slope: f64,
+    /// slope², which is linear in the height within a layer: it runs ahead of the square roots.
+    slope_squared: f64,
     end: Option<End>,
 }
 
 impl<'a> Path<'a> {
     pub fn new(air: &'a Atmosphere) -> Self {
-        Self { air, arcs: Vec::new(), layer: 0, r: 0.0, z: 0.0, slope: 0.0, end: Some(End::Segments) }
+        Self {
+            air,
+            arcs: Vec::new(),
+            layer: 0,
+            r: 0.0,
+            z: 0.0,
+            slope: 0.0,
+            slope_squared: 0.0,
+            end: Some(End::Segments),
+        }
     }
 
     /// Begins a curve at height z with the tangent's slope dz/dr.
     pub fn start(&mut self, z: f64, slope: f64) {
         self.arcs.clear();
         (self.r, self.z, self.slope, self.end) = (0.0, z, slope, None);
+        self.slope_squared = slope * slope;
         let layers = &self.air.layers;
         let above = layers.partition_point(|layer| layer.top <= z);
         match layers.get(above) {
@@ -216,12 +228,14 @@ impl<'a> Path<'a> {
             (z - layer.bottom, layer.top - z, -a, -m)
         };
         // bend x² + steep x = ahead; where that has no solution the ray turns and meets the boundary behind.
-        let reach = steep * steep + 4.0 * bend * ahead;
+        let reach = self.slope_squared + 4.0 * bend * ahead;
         let (width, slope, turns) = if reach >= 0.0 {
             let root = reach.sqrt();
+            self.slope_squared = reach;
             (2.0 * ahead / (steep + root), root, false)
         } else {
-            let root = (steep * steep - 4.0 * bend * behind).sqrt();
+            self.slope_squared -= 4.0 * bend * behind;
+            let root = self.slope_squared.sqrt();
             ((steep + root) / (-2.0 * bend), -root, true)
         };
         let exits_up = rising != turns;
@@ -244,6 +258,7 @@ impl<'a> Path<'a> {
             arc.z1 = arc.height(r1).clamp(layer.bottom, layer.top);
             arc.r1 = r1;
             slope = arc.slope_at(r1);
+            self.slope_squared = slope * slope;
         }
         (arc.low, arc.high) = if arc.z0 < arc.z1 { (arc.z0, arc.z1) } else { (arc.z1, arc.z0) };
         if arc.slope * slope < 0.0 {

@@ -7,30 +7,37 @@ import os
 import tempfile
 from collections.abc import Generator
 from pathlib import Path
-from typing import IO
 
 
 @contextlib.contextmanager
-def write_file(path: Path) -> Generator[IO[bytes]]:
-    """A binary file to write into, that becomes `path` on leaving the block, or vanishes if the block fails.
+def replacing(*targets: Path) -> Generator[list[Path]]:
+    """Paths to write to, that become the targets on leaving the block, or vanish if the block fails.
 
-    Raises OSError where the folder can not be written to. Anything but a regular file (a pipe, /dev/stdout) is written
-    to directly.
+    They stand in the targets' folders and have their suffixes. What is there and is no regular file (a pipe,
+    /dev/stdout) is written to directly. Raises OSError where a folder can not be written to.
     """
-    if path.exists() and not path.is_file():
-        with path.open("wb") as file:
-            yield file
-        return
-    target = path.resolve()
-    descriptor, name = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
-    temporary = Path(name)
+    finals = [target.resolve() for target in targets]
+    temporaries: list[Path] = []
     try:
-        with os.fdopen(descriptor, "wb") as file:
-            yield file
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(target.stat().st_mode if target.exists() else 0o666 & ~mask)
-        temporary.replace(target)
+        for final in finals:
+            temporaries.append(final if final.exists() and not final.is_file() else _beside(final))
+        yield temporaries
+        for temporary, final in zip(temporaries, finals, strict=True):
+            if temporary != final:
+                temporary.replace(final)
     except BaseException:
-        temporary.unlink(missing_ok=True)
+        for temporary, final in zip(temporaries, finals, strict=False):
+            if temporary != final:
+                temporary.unlink(missing_ok=True)
         raise
+
+
+def _beside(target: Path) -> Path:
+    """A new empty file in the target's folder, with the target's suffix, and its or the usual permissions."""
+    descriptor, name = tempfile.mkstemp(prefix=f".{target.stem[:100]}-", suffix=target.suffix, dir=target.parent)
+    os.close(descriptor)
+    mask = os.umask(0)
+    os.umask(mask)
+    temporary = Path(name)
+    temporary.chmod(target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~mask)
+    return temporary

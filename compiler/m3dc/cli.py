@@ -11,8 +11,8 @@ import sys
 import time
 from pathlib import Path
 
-from . import compile, m3ir
-from .artefact import write_file
+from . import compile
+from .artefact import replacing
 from .dump import dump
 from .report import print_human, print_json
 
@@ -73,11 +73,13 @@ def _run(options: argparse.Namespace) -> int:
             sys.stdout.write(dump(result.ir, time.ctime()))
             sys.stdout.flush()
         elif options.dump:
-            with write_file(Path(options.dump)) as file:
-                file.write(dump(result.ir, time.ctime()).encode())
+            with replacing(Path(options.dump)) as (temporary,):
+                temporary.write_text(dump(result.ir, time.ctime()), encoding="utf-8")
         elif target is None:
             return fail("where should the IR of standard input go? Give -o OUT.m3ir")
         else:
+            from . import m3ir
+
             m3ir.write(result.ir, Path(target))
     except BrokenPipeError:
         raise

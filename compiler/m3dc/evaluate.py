@@ -329,19 +329,20 @@ class Evaluator:
             columns = slice(start, start + (3 if argument.shape == "vector" else 1))
             start = columns.stop
             part = value.rows[:, columns]
-            if not np.isfinite(part).all():
+            if not len(part):
+                continue
+            least, most = float(part.min()), float(part.max())
+            if not (math.isfinite(least) and math.isfinite(most)):
                 row = int(np.flatnonzero(~np.isfinite(part).all(axis=1))[0])
                 self._row_error("M3D0114", value, row, "the largest number is about 1.8e308")
                 return None
             bounds = argument.bounds
-            if bounds is None:
+            if bounds is None or (least in bounds.interval and most in bounds.interval):
                 continue
             low, high = bounds.interval.low, bounds.interval.high
             below = part <= low if bounds.interval.low_open else part < low
             above = part >= high if bounds.interval.high_open else part > high
             outside = np.flatnonzero((below | above).any(axis=1))
-            if not outside.size:
-                continue
             shown = ", ".join(f"{n:g}" for n in part[outside[0]])
             if bounds.policy == "error":
                 self._row_error("M3D0401", value, outside[0], f"found {shown}", fill=bounds.message)

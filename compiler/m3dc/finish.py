@@ -28,7 +28,8 @@ def _nothing(record: Record, findings: Findings, *, whole: bool) -> None:
 
 def _three_points(record: Record, findings: Findings, *, whole: bool) -> None:
     first, second, third = (np.array(record.vector(f"VERTEX{n}")) for n in (1, 2, 3))
-    if mesh.degenerate(third - second, first - second):
+    (ux, uy, uz), (vx, vy, vz) = third - second, first - second
+    if mesh.degenerate((ux, uy, uz), (vx, vy, vz)):
         findings.add_at("M3D0403", record.span, "the three points must differ and not lie on one line")
 
 

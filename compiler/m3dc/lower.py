@@ -45,7 +45,7 @@ class _Rows:
             rows, chunks = self._rows[table], self._chunks[table]
             if chunks:
                 made[table] = {
-                    name: np.concatenate([np.asarray(chunk[name], column.dtype) for chunk in chunks])
+                    name: _joined([np.asarray(chunk[name], column.dtype) for chunk in chunks])
                     for name, column in columns.items()
                 }
             else:
@@ -54,6 +54,10 @@ class _Rows:
                     for name, column in columns.items()
                 }
         return made
+
+
+def _joined(chunks: list[NDArray[Any]]) -> NDArray[Any]:
+    return chunks[0] if len(chunks) == 1 else np.concatenate(chunks)
 
 
 def lower(world: World, source: str) -> ir.SceneIR:
@@ -289,9 +293,9 @@ def _extent(tables: dict[str, ir.Table]) -> ir.Extent | None:
     occupied = [points for points in corners if len(points)]
     if not occupied:
         return None
-    lowest = np.min([points.min(axis=0) for points in occupied], axis=0)
-    highest = np.max([points.max(axis=0) for points in occupied], axis=0)
-    return ir.Extent(_triple(lowest), _triple(highest))
+    lowest = [min(float(points[:, axis].min()) for points in occupied) for axis in range(3)]
+    highest = [max(float(points[:, axis].max()) for points in occupied) for axis in range(3)]
+    return ir.Extent(_triple(np.array(lowest)), _triple(np.array(highest)))
 
 
 # --- scene --------------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from typing import Any, cast
 import numpy as np
 
 from . import ir
-from .artefact import write_file
+from .artefact import replacing
 
 VERSION = 1
 
@@ -36,7 +36,7 @@ def write(scene: ir.SceneIR, path: Path) -> None:
         f"{table}.{column}": values for table, columns in scene.tables.items() for column, values in columns.items()
     }
     text = np.frombuffer(json.dumps(header, allow_nan=False).encode(), np.uint8)
-    with write_file(path) as file:
+    with replacing(path) as (temporary,), temporary.open("wb") as file:
         np.savez(file, allow_pickle=False, header=text, **arrays)
 
 

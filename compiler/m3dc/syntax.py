@@ -10,12 +10,12 @@ import math
 import re
 from typing import NamedTuple
 
-from tree_sitter import Language, Node, Parser, Tree
+from tree_sitter import Language, Node, Parser, Point, Range, Tree
 
 import tree_sitter_m3d
 from tree_sitter_m3d.table import LANGUAGE
 
-from . import ast
+from . import ast, long_tables
 from .diagnostics import Findings
 from .ir import Span
 from .source import Source
@@ -39,11 +39,12 @@ class Syntax(NamedTuple):
 
 def parse(source: Source, findings: Findings) -> Syntax:
     """Read a scene. Never raises on any text; what is wrong goes into `findings`."""
-    tree = Parser(_GRAMMAR).parse(source.data)
-    control = _CONTROL.search(source.data)
+    outside = long_tables.outside(source.data)
+    tree = _tree(source.data, outside)
+    control = _find_control(source.data, outside)
     if control is not None:
-        found = f"it holds the byte {control.group()[0]:#04x}"
-        findings.add("M3D0113", control.span(), f"{found}; a scene is plain text, in UTF-8 or ASCII")
+        found = f"it holds the byte {source.data[control]:#04x}"
+        findings.add("M3D0113", (control, control + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
         return Syntax(tree, (), frozenset())
     items: list[ast.TopLevel] = []
     faulty: list[Node] = []
@@ -59,7 +60,7 @@ def parse(source: Source, findings: Findings) -> Syntax:
         if item is not None:
             items.append(ast.TopLevel(node.start_byte, item))
     findings.base = 0
-    unclosed = _unclosed_comment(source.data)
+    unclosed = _unclosed_comment(source.data, outside)
     if unclosed is not None:
         findings.add("M3D0105", (unclosed, unclosed + 2), "this comment is never closed with */")
     elif only_comments:
@@ -71,14 +72,30 @@ def parse(source: Source, findings: Findings) -> Syntax:
     return Syntax(tree, tuple(items), frozenset(node.start_byte for node in faulty))
 
 
+def _tree(data: bytes, outside: list[Span]) -> Tree:
+    """The concrete tree. Where long tables are left out, rows and columns are wrong after them; bytes never are."""
+    if len(outside) == 1:
+        return Parser(_GRAMMAR).parse(data)
+    anywhere = Point(0, 0)
+    ranges = [Range(anywhere, anywhere, start, end) for start, end in outside[:-1]]
+    ranges.append(Range(anywhere, Point(0xFFFFFFFF, 0xFFFFFFFF), outside[-1][0], 0xFFFFFFFF))
+    return Parser(_GRAMMAR, included_ranges=ranges).parse(data)
+
+
+def _find_control(data: bytes, outside: list[Span]) -> int | None:
+    """Where the first byte is that no text holds."""
+    matches = (_CONTROL.search(data, start, end) for start, end in outside)
+    return next((match.start() for match in matches if match), None)
+
+
 _DELIMITER = re.compile(rb"/\*|\*/")
 
 
-def _unclosed_comment(data: bytes) -> int | None:
+def _unclosed_comment(data: bytes, outside: list[Span]) -> int | None:
     """Where the comment opens that is never closed, if any: the outermost one."""
     depth = 0
     opened = 0
-    for match in _DELIMITER.finditer(data):
+    for match in (match for start, end in outside for match in _DELIMITER.finditer(data, start, end)):
         if match.group() == b"/*":
             if depth == 0:
                 opened = match.start()

@@ -19,7 +19,6 @@ from .diagnostics import Findings, Fix, Related
 from .ir import Span
 from .source import Source
 
-
 # Where a new top-level item begins, as one can tell after an error: at the start of a line. A type in a VARIABLES
 # block, which a name and a comma or semicolon follow, is none.
 _ITEM_START = re.compile(

@@ -25,7 +25,9 @@ class Transform(NamedTuple):
         return Transform(self.matrix @ other.matrix, other.inverse @ self.inverse)
 
     def points(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points, shape (..., 3), moved."""
+        """Points, shape (..., 3), moved; the same array where nothing moves."""
+        if np.array_equal(self.matrix, IDENTITY.matrix):
+            return points
         return points @ self.matrix[:3, :3] + self.matrix[3, :3]
 
     def vectors(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,6 +1,9 @@
-//! Writes a tree-sitter parser: `m3d-parser-generator GRAMMAR OUT` makes `parser.c`, `node-types.json`, `grammar.json`
-//! and the headers in the folder OUT. GRAMMAR is `grammar.js` (read by node) or `src/grammar.json` (read as it is).
+//! Writes the tree-sitter parser: `parser.c`, `node-types.json`, `grammar.json` and the headers.
+//!
+//! Without arguments it makes `grammar/src` of `grammar/grammar.js`, which node reads. `m3d-parser-generator GRAMMAR OUT`
+//! makes the folder OUT of another file; a `grammar.json` is read without node.
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use tree_sitter_generate::{OptLevel, generate_parser_in_directory};
@@ -9,16 +12,21 @@ use tree_sitter_generate::{OptLevel, generate_parser_in_directory};
 const ABI: usize = 15;
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [grammar, out] = arguments.as_slice() else {
-        eprintln!("usage: m3d-parser-generator GRAMMAR OUT");
-        return ExitCode::from(2);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let (grammar, out) = match arguments.as_slice() {
+        [] => (folder.join("grammar.js"), folder.join("src")),
+        [grammar, out] => (grammar.clone(), out.clone()),
+        _ => {
+            eprintln!("usage: m3d-parser-generator [GRAMMAR OUT]");
+            return ExitCode::from(2);
+        }
     };
     let mut remarks = Vec::new();
     let written = generate_parser_in_directory(
-        ".",
+        folder,
         Some(out),
-        Some(grammar),
+        Some(grammar.clone()),
         ABI,
         None,
         Some("node"),
@@ -32,7 +40,7 @@ fn main() -> ExitCode {
     match written {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{grammar}: {error}");
+            eprintln!("{}: {error}", grammar.display());
             ExitCode::FAILURE
         }
     }

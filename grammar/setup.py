@@ -24,8 +24,8 @@ setup(
     ext_modules=[
         Extension(
             "tree_sitter_m3d._binding",
-            sources=["src/binding.c", "src/parser.c", "src/scanner.c", "src/table_finder.c", "src/table_reader.c"],
-            depends=["src/table_finder.h", "src/table_reader.h", "src/tree_sitter/parser.h"],
+            sources=["src/binding.c", "src/parser.c", "src/scanner.c", "src/table_reader.c"],
+            depends=["src/table_reader.h", "src/tree_sitter/parser.h"],
             include_dirs=["src"],
             define_macros=[("Py_LIMITED_API", "0x030B0000")],
             extra_compile_args=["/std:c11", "/utf-8"]

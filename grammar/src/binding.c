@@ -1,11 +1,9 @@
 /*
- * The Python extension module tree_sitter_m3d._binding: the tree-sitter language, and the finder and the reader of
- * big tables.
+ * The Python extension module tree_sitter_m3d._binding: the tree-sitter language, and the reader of big tables.
  */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 
-#include "table_finder.h"
 #include "table_reader.h"
 
 typedef struct TSLanguage TSLanguage;
@@ -96,31 +94,8 @@ done:
     return result;
 }
 
-PyDoc_STRVAR(find_tables_doc,
-             "find_tables(source, keywords, least) -> [(start, end), ...]\n\n"
-             "See tree_sitter_m3d.bulk.find_tables.");
-
-static PyObject *find_tables(PyObject *module, PyObject *arguments) {
-    (void)module;
-    Py_buffer source;
-    const char *keywords;
-    Py_ssize_t least;
-    if (!PyArg_ParseTuple(arguments, "y*sn:find_tables", &source, &keywords, &least)) return NULL;
-    const uint8_t *text = source.buf, *start, *end;
-    TableFinder finder = {text, text + source.len, keywords, least > 0 ? (size_t)least : 0};
-    PyObject *found = PyList_New(0);
-    while (found && table_finder_next(&finder, &start, &end)) {
-        PyObject *range = Py_BuildValue("nn", (Py_ssize_t)(start - text), (Py_ssize_t)(end - text));
-        if (!range || PyList_Append(found, range) < 0) Py_CLEAR(found);
-        Py_XDECREF(range);
-    }
-    PyBuffer_Release(&source);
-    return found;
-}
-
 static PyMethodDef methods[] = {
     {"language", language, METH_NOARGS, "language() -> capsule\n\nThe tree-sitter language, for tree_sitter.Language."},
-    {"find_tables", find_tables, METH_VARARGS, find_tables_doc},
     {"read_table", read_table, METH_VARARGS, read_table_doc},
     {NULL, NULL, 0, NULL},
 };

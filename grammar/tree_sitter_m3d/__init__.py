@@ -5,7 +5,7 @@
 
 - `language()` is the tree-sitter language; `HIGHLIGHTS_QUERY`, `FOLDS_QUERY`, `INDENTS_QUERY`, `LOCALS_QUERY` and
   `TAGS_QUERY` are the texts of its queries.
-- `find_tables` finds the big tables of a text, `read_table` reads the numbers of one.
+- `read_table` reads the numbers of a big table.
 - `blank_comments` makes spaces of comments.
 - `tree_sitter_m3d.table.LANGUAGE` describes every block and statement.
 - `tree_sitter_m3d.formal` says where a text stops being a sentence of the language, and what could stand there.
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._binding import language
-    from .bulk import Stop, TableData, find_tables, ranges_around, read_table
+    from .bulk import Stop, TableData, read_table
     from .comments import blank_comments
 
     FOLDS_QUERY: str
@@ -38,9 +38,7 @@ __all__ = [
     "Stop",
     "TableData",
     "blank_comments",
-    "find_tables",
     "language",
-    "ranges_around",
     "read_table",
 ]
 
@@ -48,9 +46,7 @@ _MODULES = {
     "Stop": "bulk",
     "TableData": "bulk",
     "blank_comments": "comments",
-    "find_tables": "bulk",
     "language": "_binding",
-    "ranges_around": "bulk",
     "read_table": "bulk",
 }
 

@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, cast
+from typing import Literal, NamedTuple, cast
 
-from ._binding import find_tables as _find_tables
 from ._binding import read_table as _read_table
-from .table import LANGUAGE
-
-if TYPE_CHECKING:
-    from tree_sitter import Range
-
-_KEYWORDS = f" {' '.join(sorted({keyword for block in LANGUAGE.blocks.values() for keyword in block.tables}))} "
 
 Expected = Literal["number", "digit", "space", "<", ",", ">", "*/"]
 
@@ -59,26 +52,3 @@ def read_table(source: bytes | bytearray | memoryview, start: int, end: int, hea
         len(row) + 2 * row.count("v"),
         None if expected is None else Stop(at, cast(Expected, expected)),
     )
-
-
-def find_tables(source: bytes | bytearray | memoryview, least: int = 1 << 16) -> list[tuple[int, int]]:
-    """The bodies of the tables that hold numbers alone and are `least` bytes long, as ranges between their braces.
-
-    A gigabyte takes about a second, a tenth of what tree-sitter takes to pass it. A parser that has `ranges_around`
-    them for its included ranges sees an empty table there; `read_table` then reads it, and finds what is wrong in it.
-    """
-    return _find_tables(source, _KEYWORDS, least)
-
-
-def ranges_around(source: bytes, tables: list[tuple[int, int]]) -> list[Range]:
-    """The rest of the text, as the included ranges of a tree-sitter parser: all but these tables."""
-    from tree_sitter import Point, Range
-
-    edges = [0, *(edge for table in tables for edge in table), len(source)]
-    points: list[Point] = []
-    row = 0
-    for before, edge in zip([0, *edges], edges, strict=False):
-        row += source.count(b"\n", before, edge)
-        points.append(Point(row, edge - source.rfind(b"\n", 0, edge) - 1))
-    starts, ends = slice(0, None, 2), slice(1, None, 2)
-    return [Range(*range_) for range_ in zip(points[starts], points[ends], edges[starts], edges[ends], strict=True)]

@@ -1,11 +1,11 @@
 //! How a ray finds the shape it meets first: straight, on its way to a light, or curved.
 
 use glam::{DVec2, DVec3};
-use wide::{CmpGe, CmpLe, f32x4};
+use wide::{CmpLe, f32x4};
 
 use crate::bvh::{Boxes, Bvh, Probe, Slab, Visit, at_least};
 use crate::optics::crossing::{meet_circle, meet_line, meet_segment};
-use crate::optics::path::{Arc, Path};
+use crate::optics::path::Path;
 use crate::ray::{Hit, Ray, ShapeId, ShapeKind};
 use crate::scene::Shapes;
 use crate::shape::{RadialPlane, cut, triangle};
@@ -172,79 +172,7 @@ struct Curved<'a, 'b, 'c> {
     limit: f32,
     /// Number of the arc last looked at, near which the next one is.
     arc: usize,
-    /// That arc, as four boxes at a time see it.
-    wide: WideArc,
     found: Option<Hit>,
-}
-
-/// An arc in f32, for four boxes at once. Its heights are widened by what f32 may lose.
-#[derive(Clone, Copy)]
-struct WideArc {
-    number: usize,
-    from: f32x4,
-    to: f32x4,
-    half_bend: f32x4,
-    slope: f32x4,
-    start: f32x4,
-    error: f32x4,
-    /// Height of the turning point, if it has one; else what does not matter.
-    lowest: f32x4,
-    highest: f32x4,
-}
-
-impl WideArc {
-    /// An arc that no interval lies in.
-    fn nowhere() -> Self {
-        let zero = f32x4::splat(0.0);
-        Self {
-            number: usize::MAX,
-            from: f32x4::splat(f32::INFINITY),
-            to: zero,
-            half_bend: zero,
-            slope: zero,
-            start: zero,
-            error: zero,
-            lowest: zero,
-            highest: zero,
-        }
-    }
-
-    fn new(number: usize, arc: &Arc) -> Self {
-        let splat = |x: f64| f32x4::splat(x as f32);
-        let steepest = arc.slope.abs().max(arc.slope_at(arc.r1).abs());
-        let size = arc.low.abs().max(arc.high.abs()) + steepest * arc.r1;
-        let (low_end, high_end) = if arc.z0 < arc.z1 { (arc.z0, arc.z1) } else { (arc.z1, arc.z0) };
-        Self {
-            number,
-            from: f32x4::splat((arc.r0 as f32).next_up()),
-            to: f32x4::splat((arc.r1 as f32).next_down()),
-            half_bend: splat(arc.half_bend),
-            slope: splat(arc.slope),
-            start: splat(arc.z0),
-            error: splat(size * 2f64.powi(-19)),
-            lowest: splat(if arc.low < low_end { arc.low } else { f64::INFINITY }),
-            highest: splat(if arc.high > high_end { arc.high } else { f64::NEG_INFINITY }),
-        }
-    }
-
-    /// Lanes whose interval of distances lies within the arc.
-    #[inline]
-    fn holds(&self, near: f32x4, far: f32x4) -> f32x4 {
-        near.simd_ge(self.from) & far.simd_le(self.to)
-    }
-
-    /// Lanes in which the arc, between two distances, is neither above nor below the heights of the box.
-    #[inline]
-    fn passes(&self, near: f32x4, far: f32x4, low: f32x4, high: f32x4) -> f32x4 {
-        let height = |r: f32x4| {
-            let x = r - self.from;
-            (self.half_bend * x + self.slope) * x + self.start
-        };
-        let (z0, z1) = (height(near), height(far));
-        let bottom = z0.fast_min(z1).fast_min(self.lowest) - self.error;
-        let top = z0.fast_max(z1).fast_max(self.highest) + self.error;
-        bottom.simd_le(high) & top.simd_ge(low)
-    }
 }
 
 impl Curved<'_, '_, '_> {
@@ -284,32 +212,11 @@ impl Probe for Curved<'_, '_, '_> {
         let near = x.near(sides_x).fast_max(y.near(sides_y)).fast_max(f32x4::splat(0.0));
         let far = x.far(sides_x).fast_min(y.far(sides_y)).fast_min(to);
         let reached = near.simd_le(far);
-        let lanes = reached.to_bitmask();
-        if lanes == 0 {
+        if reached.none() {
             return [f32::INFINITY; 4];
         }
-        // Most boxes lie over one arc, the same as the box before.
-        let simple = self.wide.holds(near, far);
-        let passed = reached & simple & self.wide.passes(near, far, *low, *high);
-        let missed = f32x4::splat(f32::INFINITY);
-        let mut entered = passed.blend(near, missed).to_array();
-        let rest = lanes & !simple.to_bitmask();
-        if rest != 0 {
-            let (near, far) = (near.to_array(), far.to_array());
-            let (low, high) = (low.to_array(), high.to_array());
-            for i in (0..4).filter(|i| rest & (1 << i) != 0) {
-                let (from, to) = (f64::from(near[i]), f64::from(far[i]));
-                if self.path.passes(from, to, f64::from(low[i]), f64::from(high[i]), &mut self.arc) {
-                    entered[i] = near[i];
-                }
-            }
-            if self.wide.number != self.arc
-                && let Some(arc) = self.path.arcs().get(self.arc)
-            {
-                self.wide = WideArc::new(self.arc, arc);
-            }
-        }
-        entered
+        let passed = self.path.passes(reached, [near, far], [*low, *high], &mut self.arc);
+        passed.blend(near, f32x4::splat(f32::INFINITY)).to_array()
     }
 
     #[inline]
@@ -345,7 +252,6 @@ pub fn nearest_on_curve(
         to: limit,
         limit: at_least(limit),
         arc: 0,
-        wide: WideArc::nowhere(),
         found: None,
     };
     tree.walk(&mut probe, stack);

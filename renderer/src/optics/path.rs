@@ -4,6 +4,8 @@
 //! both its ends, and ends exactly where the next one starts: a layer boundary's height is that boundary's, not a
 //! parabola's rounded value, so that a surface lying on a boundary is met by the arc that ends there.
 
+use wide::{CmpGe, CmpGt, CmpLe, f32x4};
+
 use super::atmosphere::Atmosphere;
 
 /// One parabola: z = half_bend (r - r0)² + slope (r - r0) + z0 for r0 <= r <= r1, z1 at r1.
@@ -48,19 +50,6 @@ impl Arc {
         2.0 * self.half_bend * (r - self.r0) + self.slope
     }
 
-    /// Lowest and highest point between two distances of the arc.
-    #[inline]
-    fn heights_between(&self, from: f64, to: f64) -> (f64, f64) {
-        let (z0, z1) = (self.height(from), self.height(to));
-        let (mut low, mut high) = if z0 < z1 { (z0, z1) } else { (z1, z0) };
-        let (s0, s1) = (self.slope_at(from), self.slope_at(to));
-        if s0 * s1 < 0.0 {
-            low = low.min(self.low);
-            high = high.max(self.high);
-        }
-        (low, high)
-    }
-
     /// Length of the curve from r0 to r: the closed form of ∫ sqrt(1 + z'²) dr, or Simpson's rule where the slope
     /// hardly changes and the closed form would lose its digits.
     pub fn length_to(&self, r: f64) -> f64 {
@@ -75,11 +64,72 @@ impl Arc {
     }
 }
 
+/// An arc in f32, for four boxes at once. Its heights are widened by all that f32 may lose.
+#[derive(Clone, Copy, Debug)]
+struct ArcSketch {
+    from: f32,
+    to: f32,
+    half_bend: f32,
+    slope: f32,
+    start: f32,
+    error: f32,
+    /// Height of the turning point, if there is one inside.
+    apex: Option<f32>,
+}
+
+impl ArcSketch {
+    fn new(arc: &Arc) -> Self {
+        let steepest = arc.slope.abs().max(arc.slope_at(arc.r1).abs());
+        let size = arc.low.abs().max(arc.high.abs()) + steepest * arc.r1;
+        let (low_end, high_end) = if arc.z0 < arc.z1 { (arc.z0, arc.z1) } else { (arc.z1, arc.z0) };
+        Self {
+            from: (arc.r0 as f32).next_down(),
+            to: (arc.r1 as f32).next_up(),
+            half_bend: arc.half_bend as f32,
+            slope: arc.slope as f32,
+            start: arc.z0 as f32,
+            error: (size * 2f64.powi(-19)) as f32,
+            apex: if arc.low < low_end {
+                Some(arc.low as f32)
+            } else if arc.high > high_end {
+                Some(arc.high as f32)
+            } else {
+                None
+            },
+        }
+    }
+
+    /// Boxes above or below which the arc is not all the way.
+    #[inline]
+    fn passes(&self, [near, far]: [f32x4; 2], [low, high]: [f32x4; 2]) -> f32x4 {
+        let from = f32x4::splat(self.from);
+        let near = near.fast_max(from);
+        let far = far.fast_min(f32x4::splat(self.to));
+        let (half_bend, slope) = (f32x4::splat(self.half_bend), f32x4::splat(self.slope));
+        let height = |x: f32x4| (half_bend * x + slope) * x + f32x4::splat(self.start);
+        let (x0, x1) = (near - from, far - from);
+        let (z0, z1) = (height(x0), height(x1));
+        let (mut bottom, mut top) = (z0.fast_min(z1), z0.fast_max(z1));
+        if let Some(apex) = self.apex {
+            let slope_at = |x: f32x4| half_bend * (x + x) + slope;
+            let turns = (slope_at(x0) * slope_at(x1)).simd_le(f32x4::splat(0.0));
+            let apex = f32x4::splat(apex);
+            bottom = turns.blend(bottom.fast_min(apex), bottom);
+            top = turns.blend(top.fast_max(apex), top);
+        }
+        let error = f32x4::splat(self.error);
+        let (bottom, top) = (bottom - error, top + error);
+        near.simd_le(far) & bottom.simd_le(high) & top.simd_ge(low)
+    }
+}
+
 /// A curve in the making. One value serves many rays: `start` begins anew and keeps the memory.
 #[derive(Clone, Debug)]
 pub struct Path<'a> {
     air: &'a Atmosphere,
     arcs: Vec<Arc>,
+    /// The arcs as boxes see them, as far as boxes have asked.
+    sketches: Vec<ArcSketch>,
     /// Layer that the next arc runs in.
     layer: usize,
     r: f64,
@@ -95,6 +145,7 @@ impl<'a> Path<'a> {
         Self {
             air,
             arcs: Vec::new(),
+            sketches: Vec::new(),
             layer: 0,
             r: 0.0,
             z: 0.0,
@@ -107,6 +158,7 @@ impl<'a> Path<'a> {
     /// Begins a curve at height z with the tangent's slope dz/dr.
     pub fn start(&mut self, z: f64, slope: f64) {
         self.arcs.clear();
+        self.sketches.clear();
         (self.r, self.z, self.slope, self.end) = (0.0, z, slope, None);
         self.slope_squared = slope * slope;
         let layers = &self.air.layers;
@@ -160,30 +212,51 @@ impl<'a> Path<'a> {
         Some(i)
     }
 
-    /// Whether the curve passes the heights low..high somewhere between two distances. `hint` is an arc near
-    /// `from`, and becomes the one found there.
+    /// The i-th arc as boxes see it; None beyond the end.
     #[inline]
-    pub fn passes(&mut self, from: f64, to: f64, low: f64, high: f64, hint: &mut usize) -> bool {
-        let Some(mut i) = self.find(from, *hint) else {
-            return false;
-        };
-        *hint = i;
-        while let Some(arc) = self.arc(i) {
-            if arc.r0 > to {
-                return false;
+    fn sketch(&mut self, i: usize) -> Option<&ArcSketch> {
+        while self.sketches.len() <= i {
+            let sketch = ArcSketch::new(self.arc(self.sketches.len())?);
+            self.sketches.push(sketch);
+        }
+        self.sketches.get(i)
+    }
+
+    /// Of four boxes, over the distances `near`..`far` and the heights `low`..`high`, those that the curve passes,
+    /// and now and then one that it all but touches. Only the lanes of `asked` are looked at. `hint` is an arc near
+    /// the boxes, and becomes the one above the first.
+    #[inline]
+    pub fn passes(
+        &mut self,
+        asked: f32x4,
+        [near, far]: [f32x4; 2],
+        [low, high]: [f32x4; 2],
+        hint: &mut usize,
+    ) -> f32x4 {
+        let mut passed = f32x4::splat(0.0);
+        let starts = asked.blend(near, f32x4::splat(f32::INFINITY)).to_array();
+        let first = starts[0].min(starts[1]).min(starts[2].min(starts[3]));
+        let mut i = (*hint).min(self.sketches.len().saturating_sub(1));
+        while i > 0 && self.sketches[i].from > first {
+            i -= 1;
+        }
+        while let Some(sketch) = self.sketch(i) {
+            if sketch.to < first {
+                i += 1;
+                continue;
             }
-            if arc.low <= high && arc.high >= low {
-                if from <= arc.r0 && arc.r1 <= to {
-                    return true;
-                }
-                let (z0, z1) = arc.heights_between(from.max(arc.r0), to.min(arc.r1));
-                if z0 <= high && z1 >= low {
-                    return true;
-                }
+            break;
+        }
+        *hint = i;
+        while let Some(sketch) = self.sketch(i) {
+            passed |= sketch.passes([near, far], [low, high]);
+            let beyond = far.simd_gt(f32x4::splat(sketch.to));
+            if (asked & beyond).to_bitmask() & !passed.to_bitmask() == 0 {
+                break;
             }
             i += 1;
         }
-        false
+        asked & passed
     }
 
     /// Chooses the layer beyond the boundary below layer `above`, by the ray's slope, or by the way it bends where
@@ -377,7 +450,14 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.5 * bends.len() as f64, slope);
             let mut hint = 3;
-            let passed = path.passes(from, from + width, low, low + height, &mut hint);
+            // The lane counts; the others are elsewhere, or not asked.
+            let lanes = |x: f64, others: [f32; 3]| f32x4::from([x as f32, others[0], others[1], others[2]]);
+            let asked = f32x4::splat(0.0).simd_le(lanes(0.0, [0.0, 0.0, -1.0]));
+            let distances = [lanes(from, [7.0, 900.0, 0.0]), lanes(from + width, [400.0, 901.0, 9.0])];
+            let heights = [lanes(low, [1.0, 2.0, 0.0]), lanes(low + height, [1.1, 9.0, 9.0])];
+            let lanes_passed = path.passes(asked, distances, heights, &mut hint).to_bitmask();
+            prop_assert_eq!(lanes_passed & 8, 0);
+            let passed = lanes_passed & 1 != 0;
             whole(&mut path);
             let inside = |margin: f64| (0..=4000).any(|i| {
                 let r = from + width * f64::from(i) / 4000.0;

@@ -31,15 +31,17 @@ impl Quadratic {
         if value_from == 0.0 {
             return Some(from);
         }
-        let turn = -self.b / (2.0 * self.a);
-        let turns_inside = from < turn && turn < to;
         if value_from * value_to > 0.0 {
-            // Two roots or none.
-            if !turns_inside || self.at(turn) * value_from > 0.0 {
+            // Two roots or none, and none unless it first nears zero and then leaves it.
+            let slope = |s: f64| 2.0 * self.a * s + self.b;
+            if slope(from) * value_from >= 0.0 || slope(to) * value_from <= 0.0 {
                 return None;
             }
-            return Some(self.root_before(from, turn));
+            let turn = self.turn();
+            return (self.at(turn) * value_from <= 0.0).then(|| self.root_before(from, turn));
         }
+        let turn = self.turn();
+        let turns_inside = from < turn && turn < to;
         if turns_inside && self.at(turn) * value_from <= 0.0 {
             return Some(self.root_before(from, turn));
         }
@@ -47,6 +49,11 @@ impl Quadratic {
             return Some(to);
         }
         Some(self.only_root(from, to, value_from, value_to))
+    }
+
+    /// Where it is lowest or highest.
+    fn turn(&self) -> f64 {
+        -self.b / (2.0 * self.a)
     }
 
     /// The root left of the turning point.

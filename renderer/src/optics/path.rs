@@ -65,7 +65,7 @@ impl Arc {
 }
 
 /// An arc in f32, for four boxes at once. Its heights are widened by all that f32 may lose.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Default, Debug)]
 struct ArcSketch {
     from: f32,
     to: f32,
@@ -128,8 +128,9 @@ impl ArcSketch {
 pub struct Path<'a> {
     air: &'a Atmosphere,
     arcs: Vec<Arc>,
-    /// The arcs as boxes see them, as far as boxes have asked.
-    sketches: Vec<ArcSketch>,
+    /// One arc as boxes see it, and which: the one they asked for last.
+    sketch: ArcSketch,
+    sketched: usize,
     /// Layer that the next arc runs in.
     layer: usize,
     r: f64,
@@ -145,7 +146,8 @@ impl<'a> Path<'a> {
         Self {
             air,
             arcs: Vec::new(),
-            sketches: Vec::new(),
+            sketch: ArcSketch::default(),
+            sketched: usize::MAX,
             layer: 0,
             r: 0.0,
             z: 0.0,
@@ -158,7 +160,7 @@ impl<'a> Path<'a> {
     /// Begins a curve at height z with the tangent's slope dz/dr.
     pub fn start(&mut self, z: f64, slope: f64) {
         self.arcs.clear();
-        self.sketches.clear();
+        self.sketched = usize::MAX;
         (self.r, self.z, self.slope, self.end) = (0.0, z, slope, None);
         self.slope_squared = slope * slope;
         let layers = &self.air.layers;
@@ -215,11 +217,11 @@ impl<'a> Path<'a> {
     /// The i-th arc as boxes see it; None beyond the end.
     #[inline]
     fn sketch(&mut self, i: usize) -> Option<&ArcSketch> {
-        while self.sketches.len() <= i {
-            let sketch = ArcSketch::new(self.arc(self.sketches.len())?);
-            self.sketches.push(sketch);
+        if self.sketched != i {
+            self.sketch = ArcSketch::new(self.arc(i)?);
+            self.sketched = i;
         }
-        self.sketches.get(i)
+        Some(&self.sketch)
     }
 
     /// Of four boxes, over the distances `near`..`far` and the heights `low`..`high`, those that the curve passes,
@@ -236,17 +238,9 @@ impl<'a> Path<'a> {
         let mut passed = f32x4::splat(0.0);
         let starts = asked.blend(near, f32x4::splat(f32::INFINITY)).to_array();
         let first = starts[0].min(starts[1]).min(starts[2].min(starts[3]));
-        let mut i = (*hint).min(self.sketches.len().saturating_sub(1));
-        while i > 0 && self.sketches[i].from > first {
-            i -= 1;
-        }
-        while let Some(sketch) = self.sketch(i) {
-            if sketch.to < first {
-                i += 1;
-                continue;
-            }
-            break;
-        }
+        let Some(mut i) = self.find(f64::from(first), *hint) else {
+            return passed;
+        };
         *hint = i;
         while let Some(sketch) = self.sketch(i) {
             passed |= sketch.passes([near, far], [low, high]);

@@ -45,6 +45,7 @@ generate: tools ## Write everything that is made of grammar/language.toml
 	cd grammar && ../$(BIN)/python -m generate
 	cargo run --quiet --release --manifest-path grammar/parser-generator/Cargo.toml
 	$(BIN)/python docs/m3ir.py
+	$(BIN)/python docs/diagnostics.py
 
 gallery: programs ## Render the pictures of the documentation anew
 	$(BIN)/python docs/gallery.py

@@ -51,6 +51,8 @@ class Checker:
         self._base = 0
         self._types: dict[str, str] = {}
         self._declared_at: dict[str, Span] = {}
+        self._assigned: set[str] = set()
+        self._used: set[str] = set()
         self._once: dict[str, Span] = {}
         self._unknown: set[str] = set()  # numbers and vectors whose last assignment was wrong: no more is said of them
 
@@ -134,7 +136,18 @@ class Checker:
             detail = f"{name.text} is a {type_}, and a {wanted} is expected"
             self._findings.add("M3D0203", name.span, detail, related=related)
             return False
+        if name.text not in self._assigned | self._used:
+            related = (Related(self._declared_at[name.text], "declared here"),)
+            self._findings.add("M3D0504", name.span, f"{name.text} still has its default value", related=related)
+        self._used.add(name.text)
         return True
+
+    def report_unused(self) -> None:
+        """Report the variables that nothing has used, after the last item."""
+        self._findings.base = 0
+        for name, place in self._declared_at.items():
+            if name not in self._used:
+                self._findings.add("M3D0503", place, f"nothing uses {name}")
 
     def _assignment(self, item: ast.Assignment) -> program.Assignment | None:
         if not self._names:
@@ -143,6 +156,7 @@ class Checker:
             return None
         target = self._type_of(item.target)
         value = item.value
+        self._assigned.add(item.target.text)
         if target in LANGUAGE.basics:
             self._unknown.add(item.target.text)
         block = LANGUAGE.blocks.get(target or "")
@@ -204,10 +218,17 @@ class Checker:
         members: list[program.Member] = []
         broken: set[str] = set()
         seen: dict[str, Span] = {}
+        overwritten: dict[str, Span] = {}
         for item in body.items:
             member = self._member(item, block, seen)
             if member is not None:
                 members.append(member)
+                if _overwrites(member, block):
+                    keyword = member.entry.keyword
+                    if keyword in overwritten:
+                        related = (Related(self._findings.absolute(member.span), "this one counts"),)
+                        self._findings.add("M3D0512", overwritten[keyword], fill=keyword, related=related)
+                    overwritten[keyword] = member.span
             elif not isinstance(item, ast.Assignment):
                 broken.add(item.keyword.text)
         return tuple(members), frozenset(broken)
@@ -331,6 +352,13 @@ _STOP_CODE = {
 }
 
 
+def _overwrites(member: program.Member, block: language.Block) -> bool:
+    """Whether a member takes the place of an earlier one with its keyword."""
+    if isinstance(member, program.Table):
+        return member.entry.keyword == "PROFILE"
+    return isinstance(member, program.Statement) and not member.entry.is_flag and block.keyword != "TRANSFORM"
+
+
 def _is_known(number: ast.Number) -> bool:
     """Whether a number could be read; what is wrong with one that could not has been reported."""
     return not math.isnan(number.value)
@@ -388,5 +416,7 @@ def check(
             del findings.found[before:]
         if result is not None:
             checked.append(result)
+    if not faulty:
+        checker.report_unused()
     findings.base = 0
     return tuple(checked)

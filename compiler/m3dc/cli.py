@@ -11,10 +11,12 @@ import sys
 import time
 from pathlib import Path
 
-from . import compile
+from . import Result, compile, report
 from .artefact import replacing
 from .dump import dump
-from .report import print_human, print_json
+from .levels import levels
+
+_PRINT = {"json": report.print_json, "sarif": report.print_sarif}
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -34,39 +36,67 @@ def main(arguments: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="m3dc",
-        usage="m3dc [-o OUT.m3ir | --check | --dump[=FILE]] [--message-format human|json] SCENE.m3d",
+        usage="m3dc [-o OUT.m3ir | --check | --dump[=FILE]] [options] SCENE.m3d\n       m3dc --explain CODE",
         description="Compile a Mirage3D scene to flat scene IR, or show what it compiles to.",
         epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files.",
     )
-    parser.add_argument("scene", metavar="SCENE.m3d", help="the scene to compile; - reads standard input")
+    parser.add_argument("scene", nargs="?", metavar="SCENE.m3d", help="the scene to compile; - reads standard input")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("-o", dest="output", metavar="OUT.m3ir", help="where to write the IR (beside the scene)")
     what.add_argument("--check", action="store_true", help="only report what is wrong; write nothing")
     what.add_argument("--dump", metavar="FILE", help="print the resolved scene; with --dump=FILE, write it to FILE")
+    what.add_argument("--explain", metavar="CODE", help="say what a diagnostic's code means, with an example")
     parser.add_argument(
         "--message-format",
-        choices=("human", "json"),
+        choices=("human", "json", "sarif"),
         default="human",
-        help="how diagnostics are shown: for people on standard error, or one JSON object a line on standard output",
+        help="diagnostics for people, on standard error; or for programs, on standard output: JSON lines, or SARIF",
     )
+    parser.add_argument(
+        "--max-errors",
+        type=int,
+        default=report.MOST_SHOWN,
+        metavar="N",
+        help="show at most N diagnostics (%(default)s)",
+    )
+    parser.add_argument("--echo", action="store_true", help="list the scene, each diagnostic under its line")
+    codes = parser.add_argument_group("diagnostics by code", "CODE is a code, several with commas, or `all`")
+    for option, does in (
+        ("-W", "warn of a hint"),
+        ("--deny", "make a warning an error"),
+        ("--allow", "keep a warning back"),
+    ):
+        codes.add_argument(option, dest=option.strip("-"), action="append", default=[], metavar="CODE", help=does)
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.explain:
+        return _explain(options.explain)
+    if options.scene is None:
+        return fail("which scene? Give a .m3d file, or - for standard input; m3dc --help lists the options")
+    chosen = levels(options.W, options.deny, options.allow)
+    if chosen.unknown():
+        return fail(f"{', '.join(chosen.unknown())} is no code of a diagnostic; docs/diagnostics.md lists them")
     name: str = options.scene
     try:
         text = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
     except OSError as error:
         return fail(f"cannot read {name}: {error.strerror or error}")
     result = compile(text, name)
-    if options.message_format == "json":
-        print_json(result.diagnostics, result.source, sys.stdout)
+    shown = chosen.apply(result.diagnostics)
+    if options.echo:
+        report.print_echo(shown, result.source, sys.stdout)
+    if options.message_format == "human":
+        report.print_human(shown, result.source, sys.stderr, most=options.max_errors)
     else:
-        print_human(result.diagnostics, result.source, sys.stderr)
-    if not result.ok:
+        _PRINT[options.message_format](shown[: options.max_errors], result.source, sys.stdout)
+    if any(diagnostic.severity == "error" for diagnostic in shown):
         return 1
-    if options.check:
-        return 0
+    return 0 if options.check else _write(result, options, name)
+
+
+def _write(result: Result, options: argparse.Namespace, name: str) -> int:
     target = options.dump or options.output or _beside(name)
     try:
         if options.dump == "-":
@@ -85,6 +115,14 @@ def _run(options: argparse.Namespace) -> int:
         raise
     except OSError as error:
         return fail(f"cannot write {target}: {error.strerror or error}; nothing was changed")
+    return 0
+
+
+def _explain(code: str) -> int:
+    text = report.explain(code.upper())
+    if text is None:
+        return fail(f"{code} is no code of a diagnostic; docs/diagnostics.md lists them")
+    sys.stdout.write(text)
     return 0
 
 

@@ -6,8 +6,10 @@ from typing import NamedTuple
 
 from .check import check
 from .diagnostics import Diagnostic, Findings
+from .directives import without_allowed
 from .evaluate import Evaluator
 from .ir import SceneIR
+from .lint import lint
 from .lower import lower
 from .source import Source
 from .syntax import parse
@@ -35,5 +37,7 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     program = check(source, syntax.items, syntax.faulty, findings)
     world = Evaluator(findings).run(program, syntax.faulty)
     ir = lower(world, source.name)
-    diagnostics = sorted(dict.fromkeys(findings.found), key=lambda diagnostic: diagnostic.span)
-    return Result(ir, tuple(diagnostics), source)
+    if not any(diagnostic.severity == "error" for diagnostic in findings.found):
+        lint(world, findings)
+    found = sorted(dict.fromkeys(findings.found), key=lambda diagnostic: diagnostic.span)
+    return Result(ir, tuple(without_allowed(found, source)), source)

@@ -25,6 +25,9 @@ from .values import Record, TableValue, Value, Vector
 
 INTEGER_LIMIT = 2**31 - 1
 
+# What is reported of a value out of range that is not an error.
+_SUBSTITUTED = {"default": "M3D0402", "limit": "M3D0422", "warn": "M3D0423"}
+
 
 class World(NamedTuple):
     """All that a scene adds up to. The lights are in the order they were made, the sky's sun among them."""
@@ -133,6 +136,9 @@ class Evaluator:
             if block.source is not None:
                 source = self._variables[block.source.text]
                 assert isinstance(source, Record)
+                if start is not IDENTITY:
+                    detail = f"{block.source.text} replaces the matrix; a block in braces would build on it"
+                    self._findings.add("M3D0501", block.source.span, detail)
                 start = source.transform
             record.transform = self._steps(start, block.body)
         elif block.entry.adds:
@@ -159,6 +165,8 @@ class Evaluator:
         for member in members:
             assert isinstance(member, program.Statement)
             if member.entry.keyword == "IDENTITY":
+                if depth:
+                    self._findings.add("M3D0502", member.span, "put it first, or leave out what stands before it")
                 transform, depth = IDENTITY, 0
                 continue
             depth += 1
@@ -246,7 +254,7 @@ class Evaluator:
             detail = f"{entry.keyword} {shown} is replaced by {', '.join(f'{part:g}' for part in clamped)}"
         else:
             detail = f"{entry.keyword} is {shown}"
-        self._findings.add("M3D0402", argument.span, detail, fill=bounds.message)
+        self._findings.add(_SUBSTITUTED[bounds.policy], argument.span, detail, fill=bounds.message)
         return value
 
     def _value(self, argument: ast.Argument) -> float | Vector:
@@ -347,7 +355,8 @@ class Evaluator:
             if bounds.policy == "error":
                 self._row_error("M3D0401", value, outside[0], f"found {shown}", fill=bounds.message)
                 return None
-            self._row_error("M3D0402", value, outside[0], f"{shown} is set to the nearest limit", fill=bounds.message)
+            detail = f"{shown} is set to the nearest limit"
+            self._row_error("M3D0422", value, outside[0], detail, fill=bounds.message)
             rows = value.rows.copy()
             rows[:, columns] = part.clip(low, high)
             value = value._replace(rows=rows)

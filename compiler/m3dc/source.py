@@ -35,6 +35,11 @@ class Source:
         newlines = np.flatnonzero(np.frombuffer(self.data, np.uint8) == 0x0A)
         return [0, *(newlines + 1).tolist()]
 
+    @property
+    def line_count(self) -> int:
+        """How many lines there are; what follows the last line's end is one only if it is not empty."""
+        return len(self._line_starts) - (self._line_starts[-1] == len(self.data))
+
     def position(self, offset: int) -> Position:
         """Line and column of the character at a byte offset, which may be the end of the text."""
         line = bisect_right(self._line_starts, offset)

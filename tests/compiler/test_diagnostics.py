@@ -8,6 +8,7 @@ import pytest
 from marks import mark, marks, with_marks, without_marks
 
 import m3dc
+from m3dc.catalogue import CATALOGUE
 
 SCENES = sorted((Path(__file__).parent / "diagnostics").glob("*.m3d"))
 
@@ -21,7 +22,7 @@ def test_marks_and_diagnostics_agree(scene: Path, rewrite: bool) -> None:
         scene.write_text(with_marks(plain, [mark(d, result.source) for d in result.diagnostics]), encoding="utf-8")
         return
     result = m3dc.compile(text)
-    assert [mark(d, result.source) for d in result.diagnostics] == marks(text)
+    assert sorted(mark(d, result.source) for d in result.diagnostics) == marks(text)
     assert marks(text), "a scene without marks shows nothing"
 
 
@@ -40,18 +41,28 @@ def test_a_fix_never_adds_an_error(scene: Path) -> None:
         assert diagnostic._replace(fix=None) not in [d._replace(fix=None) for d in mended.diagnostics]
 
 
-def test_every_code_is_shown() -> None:
-    """Each code of the catalogue stands in a scene, but for those of texts that are no scene at all."""
-    from m3dc.catalogue import CATALOGUE
+WITHOUT_SCENE = {"M3D0112", "M3D0113"}  # an empty file and a binary one can hold no marks
 
+
+def test_every_code_is_shown() -> None:
+    """Each code of the catalogue stands in a scene."""
     shown = {m.code for scene in SCENES for m in marks(scene.read_text(encoding="utf-8"))}
-    without_scene = {"M3D0112", "M3D0113"}  # an empty file, a binary file: test_hostile_input.py
-    assert set(CATALOGUE) - without_scene == shown
+    assert shown == set(CATALOGUE) - WITHOUT_SCENE
+
+
+@pytest.mark.parametrize("code", CATALOGUE)
+def test_each_entry_shows_what_causes_it_and_how_to_mend_it(code: str) -> None:
+    entry = CATALOGUE[code]
+    assert code in {diagnostic.code for diagnostic in m3dc.compile(entry.wrong).diagnostics}
+    mended = m3dc.compile(entry.right)
+    assert code not in {diagnostic.code for diagnostic in mended.diagnostics}
+    assert mended.ok
+    assert entry.says.endswith(".")
 
 
 def test_related_places_and_details_help() -> None:
-    result = m3dc.compile("VARIABLES { NUMBER radius; }\nSOLID { SPHERE { RADIUS radus } }")
-    (diagnostic,) = result.diagnostics
+    result = m3dc.compile("VARIABLES { NUMBER radius; }\nradius = 1 SOLID { SPHERE { RADIUS radus } }")
+    diagnostic = next(d for d in result.diagnostics if d.code == "M3D0202")
     assert "radius" in diagnostic.detail
     assert diagnostic.fix is not None
     assert diagnostic.fix.text == "radius"

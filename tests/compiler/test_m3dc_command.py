@@ -12,7 +12,7 @@ import pytest
 
 from m3dc import m3ir
 
-GOOD = "SOLID { SPHERE { RADIUS 2 } }\n"
+GOOD = "SCENE { SKY { } } SOLID { SPHERE { RADIUS 2 } }\n"
 BAD = "SOLID { SPHERE { RADIUS -2 } }\n"
 
 
@@ -92,8 +92,66 @@ def test_warnings_do_not_fail(scene: Path) -> None:
     scene.write_text("SOLID { SPHERE { } SURFACE { COLOR < 2, 0, 0 > } }")
     done = m3dc(scene)
     assert done.returncode == 0
-    assert "warning[M3D0402]" in done.stderr
+    assert "warning[M3D0422]" in done.stderr
     assert scene.with_suffix(".m3ir").exists()
+
+
+def test_codes_choose_what_is_shown(scene: Path) -> None:
+    scene.write_text(
+        "SCENE { SKY { } }\n"
+        "SOLID { SPHERE { RADIUS 2 RADIUS 3 } SURFACE { TEXTURE { WOOD { } } } TRANSFORM { TRANSX 1 } }"
+    )
+
+    def codes(*options: str) -> tuple[int, list[str]]:
+        done = m3dc("--check", "--message-format", "json", *options, scene)
+        return done.returncode, [json.loads(line)["code"] for line in done.stdout.splitlines()]
+
+    assert codes() == (0, ["M3D0512"])
+    assert codes("-W", "M3D0507") == (0, ["M3D0512", "M3D0507"])
+    assert codes("-W", "all", "--allow", "M3D0512") == (0, ["M3D0507"])
+    assert codes("--deny", "all") == (1, ["M3D0512"])
+    assert codes("--deny", "M3D0512,M3D0507") == (1, ["M3D0512", "M3D0507"])
+    assert codes("--allow", "all") == (0, [])
+    assert m3dc("--deny", "M3D9999", scene).returncode == 2
+
+
+def test_a_denied_warning_writes_nothing(scene: Path) -> None:
+    scene.write_text("SOLID { SPHERE { } }")
+    assert m3dc("--deny", "M3D0513", scene).returncode == 1
+    assert not scene.with_suffix(".m3ir").exists()
+
+
+def test_explain(tmp_path: Path) -> None:
+    done = m3dc("--explain", "m3d0105")
+    assert done.returncode == 0
+    assert done.stdout.startswith("error[M3D0105]: Unbalanced Comment\n")
+    assert m3dc("--explain", "M3D9999").returncode == 2
+
+
+def test_most_errors(scene: Path) -> None:
+    scene.write_text(BAD * 7)
+    done = m3dc("--max-errors", 3, scene)
+    assert done.stderr.count("error[M3D0401]") == 3
+    assert "... and 4 more" in done.stderr
+    assert "7 errors" in done.stderr
+
+
+def test_echo_lists_the_scene_with_its_diagnostics(scene: Path) -> None:
+    scene.write_text(f"/* one */\n{BAD}")
+    lines = m3dc("--check", "--echo", scene).stdout.splitlines()
+    assert lines[:2] == ["    1   /* one */", "    2   SOLID { SPHERE { RADIUS -2 } }"]
+    assert lines[2].index("^") == lines[1].index("-2")
+
+
+def test_sarif(scene: Path) -> None:
+    scene.write_text("SCENE { }\nSCENE { }")
+    done = m3dc("--message-format", "sarif", scene)
+    (run,) = json.loads(done.stdout)["runs"]
+    (result,) = run["results"]
+    assert (result["ruleId"], result["level"]) == ("M3D0301", "error")
+    assert result["locations"][0]["physicalLocation"]["region"]["startLine"] == 2
+    assert result["relatedLocations"][0]["physicalLocation"]["region"]["startLine"] == 1
+    assert run["tool"]["driver"]["rules"][0]["id"] == "M3D0301"
 
 
 @pytest.mark.parametrize(
@@ -140,7 +198,7 @@ HOSTILE = {
     "nested comments": (b"/*" * 10_000 + b"*/" * 10_000 + GOOD.encode(), ""),
     "unclosed comments": (b"/*" * 10_000, "M3D0105"),
     "closing comments": (b"*/" * 10_000, "M3D0105"),
-    "one long line": (b"SOLID { SPHERE { } } " * 20_000, ""),
+    "one long line": (b"SCENE { SKY { } } " + b"SOLID { SPHERE { } } " * 20_000, ""),
     "a long word": (b"x" * 1_000_000, None),
     "a long number": (b"SOLID { SPHERE { RADIUS " + b"9" * 100_000 + b" } }", "M3D0114"),
     "no end": (b"SOLID { SPHERE { RADIUS", None),

@@ -1,0 +1,167 @@
+"""What is right as far as the language goes, but probably not what was meant: looked for in a scene without errors.
+
+One function a finding, in `LINTS`. What can be seen from the text alone is found by check.py and evaluate.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .diagnostics import Findings
+from .evaluate import World
+from .transform import IDENTITY, Transform, unit
+from .values import Record
+
+NEAR_BOUNDARY = 1e-4  # metres
+# Textures that do not depend on where their object stands, or mean the scene's heights and nothing else.
+_PLACELESS = {"UBLEND", "VBLEND", "SNOW", "GRADIENT"}
+
+
+def lint(world: World, findings: Findings) -> None:
+    """Report everything suspicious about a scene."""
+    for look in LINTS:
+        look(world, findings)
+
+
+def _no_light(world: World, findings: Findings) -> None:
+    if world.solids and not world.lights:
+        findings.add_at("M3D0513", world.solids[0].span, "add a LIGHT, or a SKY with its sun")
+
+
+def _boundary(world: World, findings: Findings) -> None:
+    mirage = world.scene.nested.get("MIRAGE")
+    if mirage is None:
+        return
+    view = world.scene.member("VIEW")
+    height = view.vector("FROM")[2]
+    for elevation in mirage.tables["PROFILE"].rows[:, 0].tolist():
+        if abs(elevation - height) < NEAR_BOUNDARY:
+            detail = f"the eye is at {height:g}, the PROFILE has a point at {elevation:g}; move either a little"
+            findings.add_at("M3D0506", view.place("FROM"), detail)
+
+
+def _texture_stays(world: World, findings: Findings) -> None:
+    for solid in world.solids:
+        textures = solid.member("SURFACE").nested.get("TEXTURE")
+        if textures is None or solid.transform is IDENTITY:
+            continue
+        for texture in textures.parts:
+            if not texture.flag("LOCAL") and texture.block not in _PLACELESS:
+                findings.add_at("M3D0507", texture.span, "LOCAL would tie it to the object")
+
+
+def _primitives(world: World) -> Iterator[tuple[Record, Transform]]:
+    """Every primitive with the transformation that takes it into the scene."""
+    for thing in (*world.solids, *world.lights):
+        for part in thing.parts:
+            yield part, part.transform.then(thing.transform)
+
+
+def _stretched_sphere(world: World, findings: Findings) -> None:
+    for part, transform in _primitives(world):
+        if part.block != "SPHERE":
+            continue
+        factors = np.sqrt((transform.matrix[:3, :3] ** 2).sum(axis=1))
+        if factors.max() > factors.min() * (1 + 1e-6):
+            shown = ", ".join(f"{factor:g}" for factor in factors)
+            detail = f"scaled by {shown} its radius becomes {part.number('RADIUS') * factors.max():g}"
+            findings.add_at("M3D0509", part.span, detail)
+
+
+def _meshes(world: World) -> Iterator[Record]:
+    return (part for part, _ in _primitives(world) if part.block == "POLYGONS" and part.mesh is not None)
+
+
+def _unused_vertices(world: World, findings: Findings) -> None:
+    for record in _meshes(world):
+        assert record.mesh is not None
+        used = np.zeros(len(record.mesh.vertices), bool)
+        used[record.mesh.facets.ravel()] = True
+        unused = np.flatnonzero(~used)
+        if unused.size:
+            vertices = record.tables["VERTICES"]
+            at = int(vertices.offsets[unused[0]])
+            others = f" and {unused.size - 1} more" if unused.size > 1 else ""
+            findings.add_at("M3D0510", (at, at + 1), f"vertex {unused[0]}{others}")
+
+
+def _wrong_side(world: World, findings: Findings) -> None:
+    for record in _meshes(world):
+        mesh = record.mesh
+        assert mesh is not None
+        if not record.flag("PHONG") or not len(mesh.normals):
+            continue
+        a, b, c = (mesh.vertices[mesh.facets[:, corner]] for corner in range(3))
+        facing = np.cross(b - a, c - a)
+        against = (np.einsum("ij,ikj->ik", facing, mesh.normals[mesh.normal_rows]) < 0).any(axis=1)
+        wrong = np.flatnonzero(against)
+        if wrong.size:
+            at = int(mesh.offsets[wrong[0]])
+            others = f" and {wrong.size - 1} more" if wrong.size > 1 else ""
+            findings.add_at("M3D0511", (at, at + 1), f"facet {wrong[0]}{others}")
+
+
+def _light_reaches_nothing(world: World, findings: Findings) -> None:
+    """A point light reaches something if its cone meets the ball about some primitive. Planes are everywhere."""
+    endless = any(part.block == "PLANE" for part, _ in _primitives(world))
+    balls = [] if endless else [_ball(part, transform) for part, transform in _primitives(world)]
+    for light in world.lights:
+        source = light if light.block == "SUN" else light.member("SOURCE")
+        if source.number("INTENSITY") == 0 or not any(source.vector("COLOR")):
+            findings.add_at("M3D0505", source.span, "it has no intensity or is black")
+            continue
+        if endless or light.block == "SUN" or source.flag("INFINITE") or not world.solids:
+            continue
+        half_angle = source.number("ANGLE")
+        if source.number("EXPONENT") > 0:
+            half_angle = min(half_angle, 90.0)
+        position = light.transform.points(np.array(source.vector("FROM")))
+        axis = unit(light.transform.vectors(np.array(source.vector("DIRECTION"))))
+        if not any(_in_cone(position, axis, math.radians(half_angle), *ball) for ball in balls):
+            findings.add_at("M3D0505", source.span, "it shines past every solid")
+
+
+def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], float]:
+    """Centre and radius of a ball about a finite primitive, in the scene."""
+    if part.block == "SPHERE":
+        return transform.points(np.array(part.vector("CENTER"))), part.number("RADIUS") * transform.length()
+    if part.mesh is not None:
+        points = part.mesh.vertices
+    else:
+        first, second, third = (np.array(part.vector(f"VERTEX{n}")) for n in (1, 2, 3))
+        points = np.array([first, second, third, first + third - second])
+    points = transform.points(points)
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
+
+
+def _in_cone(
+    position: NDArray[np.float64],
+    axis: NDArray[np.float64],
+    half_angle: float,
+    centre: NDArray[np.float64],
+    radius: float,
+) -> bool:
+    offset = centre - position
+    distance = float(np.sqrt(offset @ offset))
+    if distance <= radius:
+        return True
+    away = math.acos(max(-1.0, min(1.0, float(offset @ axis) / distance)))
+    return away - math.asin(radius / distance) <= half_angle
+
+
+Lint = Callable[[World, Findings], None]
+
+LINTS: tuple[Lint, ...] = (
+    _no_light,
+    _light_reaches_nothing,
+    _boundary,
+    _texture_stays,
+    _stretched_sphere,
+    _unused_vertices,
+    _wrong_side,
+)

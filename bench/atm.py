@@ -62,8 +62,8 @@ def picture(shop: Workshop) -> list[Result]:
         theirs = [run([program, profile, every, eye, DISTANCE, STEP, AT]).cpu for _ in range(min(shop.repeats, 2))]
         apart = [abs(a - b) for a, b in zip(heights(STEP), heights(FINE_STEP), strict=True) if a and b]
         note = (
-            f"theirs are the rays alone, in {len(theirs)} runs; at {AT} m they lie up to {max(apart):.3f} m from its own "
-            f"with steps of {FINE_STEP} m"
+            f"theirs are the rays alone, in {len(theirs)} runs; at {AT} m they lie up to {max(apart):.3f} m from its "
+            f"own with steps of {FINE_STEP} m"
         )
     else:
         mine = alternate(shop.repeats, ours)[0]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
+import sys
 import tempfile
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+SPAWN = Path(__file__).resolve().parent / "spawn.py"
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,13 +21,12 @@ class Run:
     wall: float
     cpu: float
     peak: int
-    status: int
     output: str
     errors: str
 
 
 class RunError(RuntimeError):
-    """The program ended with another status than 0; the message holds its last words."""
+    """The program is not there, or ended with another status than 0; the message holds its last words."""
 
 
 def environment() -> dict[str, str]:
@@ -35,35 +37,25 @@ def environment() -> dict[str, str]:
     return made
 
 
-def run(command: Sequence[str | Path], folder: Path | None = None) -> Run:
-    """Run a program to its end. Raises RunError where its status is not 0, FileNotFoundError where it is not there.
+def run(command: Sequence[str | Path]) -> Run:
+    """Run a program to its end. Raises RunError where its status is not 0.
 
-    The memory is what the kernel says at the end of the process (wait4), so nothing is sampled and nothing missed.
+    The figures are what the system says at the end of the process (wait4), so nothing is sampled and nothing missed.
     """
-    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
-        started = time.perf_counter()
-        process = subprocess.Popen(
-            [str(word) for word in command],
-            cwd=folder,
+    words = [str(word) for word in command]
+    with tempfile.TemporaryDirectory() as folder:
+        taken = Path(folder) / "taken.json"
+        done = subprocess.run(
+            [sys.executable, "-S", str(SPAWN), str(taken), *words],
             env=environment(),
             stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=errors,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
         )
-        _, wait_status, usage = os.wait4(process.pid, 0)
-        wall = time.perf_counter() - started
-        process.returncode = os.waitstatus_to_exitcode(wait_status)
-        output.seek(0)
-        errors.seek(0)
-        ended = Run(
-            wall=wall,
-            cpu=usage.ru_utime + usage.ru_stime,
-            peak=usage.ru_maxrss * 1024,
-            status=process.returncode,
-            output=output.read().decode("utf-8", "replace"),
-            errors=errors.read().decode("utf-8", "replace"),
-        )
-    if ended.status != 0:
-        said = "\n".join((ended.errors or ended.output).splitlines()[-8:])
-        raise RunError(f"{' '.join(map(str, command))}: status {ended.status}\n{said}")
-    return ended
+        figures = json.loads(taken.read_text()) if taken.exists() else {"status": None}
+    if figures["status"] != 0:
+        said = "\n".join((done.stderr or done.stdout).splitlines()[-8:])
+        raise RunError(f"{' '.join(words)}: status {figures['status']}\n{said}")
+    return Run(figures["wall"], figures["cpu"], figures["peak"], done.stdout, done.stderr)

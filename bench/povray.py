@@ -48,7 +48,7 @@ class Rendered:
 
 
 def render(scene: Path, picture: Path, width: int, height: int) -> Rendered:
-    """Render a translated scene with one thread and without antialiasing. Raises RunError or FileNotFoundError."""
+    """Render a translated scene with one thread and without antialiasing. Raises RunError."""
     return statistics(
         run(
             [

@@ -136,7 +136,7 @@ def machine() -> list[str]:
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     povray = version("povray", "--version")
     return [
-        f"{processor()}, {os.cpu_count()} processors, {memory:.0f} GiB, {platform.system()} {platform.release()}",
+        f"{processor()}, {os.cpu_count()} processors, {memory:.0f} GiB, {platform.system()}",
         f"Python {platform.python_version()}; {version('cc', '--version') or 'no cc'}; {povray or 'no POV-Ray'}",
         f"load of the machine at the end (1, 5, 15 minutes): {', '.join(f'{load:.2f}' for load in os.getloadavg())}",
     ]

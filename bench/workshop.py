@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import m3dc
 from m3dc.ir import SceneIR
 
 from . import povray, scenes
-from .child import run
+from .child import RunError, run
 
 HERE = Path(__file__).resolve().parent
 
@@ -64,9 +65,10 @@ class Workshop:
 
 
 def version(*command: str) -> str:
-    """The first line that a program prints."""
+    """The line in which a program says its version; nothing where it is not installed."""
     try:
         ended = run(command)
-    except (OSError, RuntimeError):
+    except RunError:
         return ""
-    return (ended.output + ended.errors).strip().splitlines()[0]
+    lines = (ended.output + ended.errors).splitlines()
+    return next((line.strip() for line in lines if re.search(r"\d+\.\d+", line) and "/" not in line), "")

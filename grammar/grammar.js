@@ -1,8 +1,10 @@
 /**
  * The tree-sitter grammar of the Mirage3D scene language.
  *
- * It is strict about form and permissive about which keyword stands where: any item parses in any body, and the
+ * It is strict about form and permissive about which keyword stands where: any member parses in any body, and the
  * compiler's check against language.toml says precisely what is misplaced. The keyword sets come from that table.
+ * Only what stands at the top level of a file stands nowhere else: that is where the parser finds its way again after
+ * a missing brace.
  */
 
 /// <reference types="tree-sitter-cli/dsl" />
@@ -15,6 +17,16 @@ const listed = (rule) => seq(rule, repeat(seq(",", rule)));
 
 /** The keyword of a block, statement or table, one of a set. */
 const keyword = (words) => field("keyword", choice(...words));
+
+/** A block; one that is a variable type can also begin as a copy of a variable. */
+const blockOf = ($, { blocks, types }) =>
+  choice(
+    seq(keyword(blocks), field("body", $.body)),
+    seq(
+      keyword(types),
+      choice(field("body", $.body), seq(field("name", $.identifier), optional(field("body", $.body)))),
+    ),
+  );
 
 export default grammar({
   name: "m3d",
@@ -39,7 +51,9 @@ export default grammar({
   rules: {
     source_file: ($) => repeat($._item),
 
-    _item: ($) => choice($.variables, $.assignment, $.block, $.statement, $.table),
+    _item: ($) => choice($.variables, $.assignment, alias($.object, $.block), $._member),
+
+    _member: ($) => choice($.block, $.statement, $.table),
 
     variables: ($) => seq(field("keyword", "VARIABLES"), "{", repeat($.declaration), "}"),
 
@@ -56,16 +70,11 @@ export default grammar({
         ),
       ),
 
-    block: ($) =>
-      choice(
-        seq(keyword(keywords.blocks), field("body", $.body)),
-        seq(
-          keyword(keywords.types),
-          choice(field("body", $.body), seq(field("name", $.identifier), optional(field("body", $.body)))),
-        ),
-      ),
+    object: ($) => blockOf($, keywords.top),
 
-    body: ($) => seq("{", repeat($._item), "}"),
+    block: ($) => blockOf($, keywords.inner),
+
+    body: ($) => seq("{", repeat($._member), "}"),
 
     statement: ($) => seq(keyword(keywords.statements), optional(listed(field("argument", $._value)))),
 

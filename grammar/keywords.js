@@ -113,43 +113,51 @@ export default {
     "ZENITH",
     "ZENITHCOLOR"
   ],
-  "blocks": [
-    "AMBIENT",
-    "BUMPS",
-    "CHECKER",
-    "CLOUDS",
-    "GRADIENT",
-    "GRANITE",
-    "HAZE",
-    "MARBLE",
-    "MIRAGE",
-    "RIPPLES",
-    "SCENE",
-    "SKY",
-    "SNOW",
-    "SPOTTED",
-    "SUN",
-    "TERRAIN",
-    "TEXTURE",
-    "UBLEND",
-    "VBLEND",
-    "VIEW",
-    "WAVE",
-    "WAVES",
-    "WOOD"
-  ],
-  "types": [
-    "LIGHT",
-    "PLANE",
-    "POLYGONS",
-    "RECTANGLE",
-    "SOLID",
-    "SOURCE",
-    "SPHERE",
-    "SURFACE",
-    "TRANSFORM",
-    "TRIANGLE"
-  ],
+  "top": {
+    "blocks": [
+      "SCENE"
+    ],
+    "types": [
+      "LIGHT",
+      "SOLID"
+    ]
+  },
+  "inner": {
+    "blocks": [
+      "AMBIENT",
+      "BUMPS",
+      "CHECKER",
+      "CLOUDS",
+      "GRADIENT",
+      "GRANITE",
+      "HAZE",
+      "MARBLE",
+      "MIRAGE",
+      "RIPPLES",
+      "SKY",
+      "SNOW",
+      "SPOTTED",
+      "SUN",
+      "TERRAIN",
+      "TEXTURE",
+      "UBLEND",
+      "VBLEND",
+      "VIEW",
+      "WAVE",
+      "WAVES",
+      "WOOD"
+    ],
+    "types": [
+      "PLANE",
+      "POLYGONS",
+      "RECTANGLE",
+      "SOURCE",
+      "SPHERE",
+      "SURFACE",
+      "TRANSFORM",
+      "TRIANGLE"
+    ]
+  },
   "statements": [
     "AMBIENT",
     "AMPLITUDE",

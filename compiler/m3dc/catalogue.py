@@ -105,7 +105,7 @@ CATALOGUE: dict[str, Entry] = {
     "M3D0111": _error(
         "Blocks nested too deeply",
         "No scene needs blocks this deep; a closing brace is probably missing far above.",
-        "SOLID { " * 42 + "} " * 42,
+        "SOLID { " + "SPHERE { " * 42 + "} " * 43,
         "SOLID { SPHERE { } }",
     ),
     "M3D0112": _error(

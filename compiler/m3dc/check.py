@@ -395,7 +395,8 @@ def structural_faults(source: Source) -> list[str]:
     checker = Checker(source, findings, names=False)
     for item in syntax.items:
         checker.item(item)
-    found = [diagnostic.code for diagnostic in findings.found if diagnostic.code not in _NOT_FORM]
+    errors = [diagnostic.code for diagnostic in findings.found if diagnostic.severity == "error"]
+    found = [code for code in errors if code not in _NOT_FORM]
     return found or (["M3D0107"] if syntax.faulty else [])
 
 

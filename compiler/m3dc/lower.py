@@ -71,8 +71,8 @@ def lower(world: World, source: str) -> ir.SceneIR:
         if light.block == "SUN":
             sun = row
     mirage = world.scene.nested.get("MIRAGE")
-    if mirage is not None and "PROFILE" in mirage.tables:
-        profile = mirage.tables["PROFILE"]
+    profile = mirage.tables.get("PROFILE") if mirage is not None else None
+    if profile is not None and len(profile.rows):
         starts = profile.offsets.astype(np.int64)
         rows.extend(
             "profile",

@@ -46,30 +46,35 @@ def parse(source: Source, findings: Findings) -> Syntax:
         found = f"it holds the byte {source.data[control]:#04x}"
         findings.add("M3D0113", (control, control + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
         return Syntax(tree, (), frozenset())
-    items: list[ast.TopLevel] = []
-    faulty: list[Node] = []
-    only_comments = True
-    for node in tree.root_node.children:
-        if node.type == "comment":
-            continue
-        only_comments = False
-        if node.has_error or node.is_missing:
-            faulty.append(node)
-        findings.base = node.start_byte
-        item = _Builder(source.data, findings, node.start_byte).item(node, 0)
-        if item is not None:
-            items.append(ast.TopLevel(node.start_byte, item))
-    findings.base = 0
     unclosed = _unclosed_comment(source.data, outside)
     if unclosed is not None:
         findings.add("M3D0105", (unclosed, unclosed + 2), "this comment is never closed with */")
-    elif only_comments:
+        return Syntax(tree, (), frozenset())
+    if all(node.type == "comment" for node in tree.root_node.children):
         findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
-    elif faulty:
-        from .syntax_errors import report
+    if not tree.root_node.has_error:
+        return Syntax(tree, _items(tree, source.data, findings), frozenset())
 
-        report(source, tree.root_node, faulty, findings)
-    return Syntax(tree, tuple(items), frozenset(node.start_byte for node in faulty))
+    from . import syntax_errors
+
+    data = syntax_errors.mend_braces(source.data, tree.root_node, findings)
+    mended = tree if data is source.data else _tree(data, long_tables.outside(data))
+    faulty = syntax_errors.report(data, mended.root_node, findings)
+    return Syntax(tree, _items(mended, data, findings), faulty)
+
+
+def _items(tree: Tree, data: bytes, findings: Findings) -> tuple[ast.TopLevel, ...]:
+    """The top-level items that can be read, each with spans relative to its start."""
+    items: list[ast.TopLevel] = []
+    for node in tree.root_node.children:
+        if node.type == "comment":
+            continue
+        findings.base = node.start_byte
+        item = _Builder(data, findings, node.start_byte).item(node, 0)
+        if item is not None:
+            items.append(ast.TopLevel(node.start_byte, item))
+    findings.base = 0
+    return tuple(items)
 
 
 def _tree(data: bytes, outside: list[Span]) -> Tree:

@@ -15,9 +15,9 @@ from tree_sitter_m3d.comments import blank_comments
 from tree_sitter_m3d.formal import SyntaxFault, first_error
 from tree_sitter_m3d.table import LANGUAGE
 
+from .braces import brace_faults, repaired
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
-from .source import Source
 
 # Where a new top-level item begins, as one can tell after an error: at the start of a line. A type in a VARIABLES
 # block, which a name and a comma or semicolon follow, is none.
@@ -26,39 +26,84 @@ _ITEM_START = re.compile(
 )
 
 
-def report(source: Source, root: Node, faulty: list[Node], findings: Findings) -> None:
-    """What is wrong in the form of the faulty top-level nodes: the first fault of each item in them."""
-    # One character a byte, so that the grammar's offsets are ours.
-    text = blank_comments(_without_tables(source.data, root).decode("latin-1"))
-    for start, end in _stretches(root, faulty):
+SHORT = 80  # bytes of a table that are not worth leaving out
+
+
+def mend_braces(data: bytes, root: Node, findings: Findings) -> bytes:
+    """The text with missing and superfluous braces mended, each reported; the same text where they match, or where
+    something else is wrong before them."""
+    text = _plain(data, root)
+    faults = brace_faults(text)
+    if not faults:
+        return data
+    first = first_error(text)
+    if first is None or "LBRACE" in first.expected or first.offset < max(fault.offset for fault in faults):
+        return data
+    mended = repaired(data, faults)
+    if mended is None:
+        return data
+    for fault in faults:
+        if fault.missing:
+            related = (Related((fault.opened, fault.opened + 1), "the block that is open begins here"),)
+            place = (fault.offset, fault.offset)
+            findings.add("M3D0101", place, "this block is not closed", fill="}", related=related)
+        else:
+            place = (fault.offset, fault.offset + 1)
+            findings.add("M3D0107", place, "found '}', which closes more than was opened")
+    return mended
+
+
+def report(data: bytes, root: Node, findings: Findings) -> frozenset[int]:
+    """What is wrong in the form of a text: the first fault of each top-level item.
+
+    Returns where the nodes start that are faulty, or belong to an item that is, and of which no more is to be said.
+    """
+    text = _plain(data, root)
+    nodes = [node for node in root.children if node.type != "comment"]
+    faulty = {node.start_byte for node in nodes if node.has_error or node.is_missing}
+    done = 0
+    for start, end in _stretches(root, nodes):
+        start = max(start, done)
         found = False
         while start < end:
             fault = first_error(text[start:end])
-            if fault is None and not found:
-                # The stretch reads as a sentence when it is cut here: it is what follows that does not fit.
+            if fault.length == 0 if fault else not found:
+                # The stretch is a sentence, or the beginning of one: it is what follows that does not fit.
                 fault = first_error(text[start:])
             if fault is None:
                 break
             found = True
             _explain(fault, text[start:], start, findings)
-            item = _ITEM_START.search(text, max(start + fault.offset, start + 1), end)
+            at = start + fault.offset
+            if at >= end:
+                done = next((node.start_byte for node in nodes if node.start_byte > at and _is_object(node)), len(text))
+                faulty |= {node.start_byte for node in nodes if start <= node.start_byte < done}
+            item = _ITEM_START.search(text, max(at, start + 1), end)
             if item is None or not fault.length:
                 break
             start = item.end()
-        if not found:
-            node = _first_error_node(next(n for n in faulty if n.start_byte >= start))
+        if not found and start < end:
+            node = _first_error_node(next(n for n in nodes if n.start_byte >= start and n.has_error))
             findings.add("M3D0107", (node.start_byte, node.end_byte), "this can not be read here")
+    return frozenset(faulty)
 
 
-def _stretches(root: Node, faulty: list[Node]) -> list[tuple[int, int]]:
+def _is_object(node: Node) -> bool:
+    """Whether a whole item of the top level begins here for certain."""
+    return not node.has_error and node.child_count > 0 and node.children[0].type in LANGUAGE.top
+
+
+def _plain(data: bytes, root: Node) -> str:
+    """The text as the formal grammar is asked about it, one character a byte, so that its offsets are ours."""
+    return blank_comments(_without_tables(data, root).decode("latin-1"))
+
+
+def _stretches(root: Node, nodes: list[Node]) -> list[tuple[int, int]]:
     """Ranges of bytes to run the grammar over: faulty nodes with the faulty ones that follow them at once."""
-    bad = {node.id for node in faulty}
     found: list[tuple[int, int]] = []
     run_start: int | None = None
-    for node in root.children:
-        if node.type == "comment":
-            continue
-        if node.id in bad:
+    for node in nodes:
+        if node.has_error or node.is_missing:
             run_start = node.start_byte if run_start is None else run_start
         elif run_start is not None:
             found.append((run_start, node.start_byte))
@@ -69,29 +114,31 @@ def _stretches(root: Node, faulty: list[Node]) -> list[tuple[int, int]]:
 
 
 def _without_tables(data: bytes, root: Node) -> bytes:
-    """The text with every long table of numbers blanked out but for its beginning, which the grammar wants to see."""
-    keep = 80
+    """The text with the rows of every long table of numbers blanked out; the grammar wants only the counts before."""
     pieces = bytearray(data)
-    stack = [node for node in root.children if node.end_byte - node.start_byte > keep]
+    stack = [node for node in root.children if node.end_byte - node.start_byte > SHORT]
     while stack:
         node = stack.pop()
         if node.type == "numeric_table":
-            # A row is cut at white space between entries, after a closed vector or before an opening one.
-            head = data[node.start_byte : node.start_byte + keep]
-            cut = node.start_byte + _row_end(head)
-            pieces[cut : node.end_byte] = b" " * (node.end_byte - cut)
+            start = node.start_byte + _counts_end(node, data[node.start_byte : node.start_byte + SHORT])
+            pieces[start : node.end_byte] = b" " * (node.end_byte - start)
         else:
-            stack.extend(child for child in node.children if child.end_byte - child.start_byte > keep)
+            stack.extend(child for child in node.children if child.end_byte - child.start_byte > SHORT)
     return bytes(pieces)
 
 
-def _row_end(head: bytes) -> int:
-    """How much of a table's beginning to keep: its counts, up to the first vector if there is one."""
-    vector = head.find(b"<")
-    if vector >= 0:
-        return vector
-    fields = head.split(None, 1)
-    return len(head) - len(fields[1]) if len(fields) > 1 else len(head)
+def _counts_end(numbers: Node, text: bytes) -> int:
+    """Where the counts at the beginning of a table end, of which some tables have none."""
+    table = numbers.parent
+    keyword = table.children[0].type if table else ""
+    body = table.parent if table else None
+    block = body.parent.children[0].type if body and body.parent else ""
+    known = LANGUAGE.blocks.get(block)
+    entries = [known, *(LANGUAGE.blocks[parent] for parent in LANGUAGE.parents.get(keyword, ()))]
+    entry = next((block.tables[keyword] for block in entries if block and keyword in block.tables), None)
+    ends = [match.end() for match in re.finditer(rb"[^\s<>,]+", text)]
+    count = len(entry.head) if entry else 0
+    return ends[count - 1] if 0 < count <= len(ends) else 0
 
 
 def _first_error_node(node: Node) -> Node:
@@ -154,7 +201,11 @@ def _nearest(token: str, expected: frozenset[str]) -> str | None:
 
 def _near(token: str, expected: frozenset[str], found: str) -> str:
     near = _nearest(token, expected)
-    return found if near is None else f"{found}; did you mean {near}?"
+    if near is not None:
+        return f"{found}; did you mean {near}?"
+    elsewhere = _nearest(token, LANGUAGE.keywords)
+    places = LANGUAGE.parents.get(elsewhere or "")
+    return f"{found}; {elsewhere} stands in {', '.join(places)}" if places else found
 
 
 def _replacement(token: str, expected: frozenset[str], span: Span) -> Fix | None:

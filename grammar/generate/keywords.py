@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 
-from tree_sitter_m3d.table import Language
+from tree_sitter_m3d.table import Block, Language
 
 HEADER = "// Generated from language.toml by `make generate`.\n"
 
 
-def sets(language: Language) -> dict[str, list[str]]:
-    """The keywords by what may follow them. AMBIENT is both a block and a statement."""
+def sets(language: Language) -> dict[str, list[str] | dict[str, list[str]]]:
+    """The keywords by what may follow them, blocks of the top level apart. AMBIENT is both a block and a statement."""
     blocks = language.blocks.values()
     tables = {keyword for block in blocks for keyword in block.tables}
     statements = {keyword for block in blocks for keyword in block.statements}
@@ -18,11 +19,19 @@ def sets(language: Language) -> dict[str, list[str]]:
     others = language.keywords - set(language.blocks) - tables - {"VARIABLES"}
     return {
         "all": sorted(language.keywords),
-        "blocks": sorted(block.keyword for block in blocks if not block.variable),
-        "types": sorted(block.keyword for block in blocks if block.variable),
+        "top": _by_form(block for block in blocks if block.keyword in language.top),
+        "inner": _by_form(block for block in blocks if block.keyword not in language.top),
         "statements": sorted(statements | others),
         "tables": sorted(tables),
     }
+
+
+def _by_form(blocks: Iterable[Block]) -> dict[str, list[str]]:
+    """Blocks that only have a body, and those that are types and can be copied from a variable."""
+    by_form: dict[str, list[str]] = {"blocks": [], "types": []}
+    for block in sorted(blocks, key=lambda block: block.keyword):
+        by_form["types" if block.variable else "blocks"].append(block.keyword)
+    return by_form
 
 
 def text(language: Language) -> str:

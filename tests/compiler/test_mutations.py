@@ -1,0 +1,155 @@
+"""One token deleted, doubled or swapped with the next, anywhere in the examples: never a crash, and the first
+diagnostic stands on the statement that was changed or in its block.
+
+    .venv/bin/python tests/compiler/test_mutations.py [SEED] [COUNT]
+
+prints the share, the worst cases, and the median time of a check.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+import statistics
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import m3dc
+from tree_sitter_m3d.comments import blank_comments
+from tree_sitter_m3d.formal import parser
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+NAMES = ("merman", "runway", "wheel", "two-balls", "cylinder-and-cone")
+TOKEN = re.compile(r"[+-]?\.?[0-9](?:[eE][+-]|[A-Za-z0-9_.])*|[A-Za-z]\w*|\S")
+WANTED = 0.9
+
+
+class Mutation(NamedTuple):
+    """A changed text, what was done at which byte, and where the block of the changed statement now is."""
+
+    text: str
+    what: str
+    at: int
+    block: tuple[int, int]
+
+
+class Outcome(NamedTuple):
+    mutation: Mutation
+    result: m3dc.Result
+    seconds: float
+
+    @property
+    def first(self) -> m3dc.Diagnostic | None:
+        """The first error, or else the first warning."""
+        errors = [d for d in self.result.diagnostics if d.severity == "error"]
+        return next(iter(errors or self.result.diagnostics), None)
+
+    @property
+    def near(self) -> bool:
+        """Whether the first diagnostic is in the block that was changed, or at its very edge."""
+        assert self.first is not None
+        start, end = self.mutation.block
+        return start <= self.first.span[0] <= end + 1
+
+
+def mutations(text: str, chance: random.Random, count: int) -> Iterator[Mutation]:
+    """Changes of one token of a text that is all ASCII."""
+    tokens = list(TOKEN.finditer(blank_comments(text)))
+    blocks = list(_blocks(tokens, len(text)))
+    for _ in range(count):
+        i = chance.randrange(len(tokens))
+        (start, end), at = tokens[i].span(), tokens[i].start()
+        what = chance.choice(("delete", "double", "swap"))
+        if what == "swap" and i + 1 < len(tokens):
+            next_start, next_end = tokens[i + 1].span()
+            new = text[next_start:next_end] + text[end:next_start] + text[start:end]
+            end = next_end
+        elif what == "double":
+            new = text[start:end] + " " + text[start:end]
+        else:
+            what, new = "delete", ""
+        growth = len(new) - (end - start)
+        # A brace is part of the block it makes, which stands in another; anything else is part of a statement.
+        edge = 1 if tokens[i][0] in "{}" else 0
+        around = (b for b in blocks[1:] if b[0] <= start and end + edge <= b[1])
+        low, high = min(around, key=lambda b: b[1] - b[0], default=blocks[0])
+        yield Mutation(text[:start] + new + text[end:], f"{what} {tokens[i][0]!r}", at, (low, high + growth))
+
+
+def _blocks(tokens: list[re.Match[str]], length: int) -> Iterator[tuple[int, int]]:
+    """Ranges of all blocks, from keyword to closing brace; of vectors' and assignments' lines; and the whole text."""
+    yield 0, length
+    open_: list[int] = []
+    for i, token in enumerate(tokens):
+        if token[0] == "{":
+            back = i - 1
+            while back > 0 and not tokens[back][0].isupper():
+                back -= 1
+            # An assignment's block begins with its target.
+            back = i - 2 if tokens[i - 1][0] == "=" else i - 3 if tokens[i - 2][0] == "=" else back
+            open_.append(tokens[max(back, 0)].start())
+        elif token[0] == "}":
+            yield open_.pop(), token.end()
+
+
+def outcomes(seed: int, count: int) -> Iterator[Outcome]:
+    chance = random.Random(seed)
+    for name in NAMES:
+        text = (EXAMPLES / f"{name}.m3d").read_text(encoding="utf-8")
+        assert text.isascii()
+        for mutation in mutations(text, chance, count // len(NAMES)):
+            begin = time.perf_counter()
+            result = m3dc.compile(mutation.text)
+            yield Outcome(mutation, result, time.perf_counter() - begin)
+
+
+def is_sentence(text: str) -> bool:
+    from lark.exceptions import UnexpectedInput
+
+    try:
+        parser().parse(blank_comments(text))
+    except UnexpectedInput:
+        return False
+    return True
+
+
+def test_the_first_diagnostic_is_where_the_mistake_is() -> None:
+    found = list(outcomes(seed=1993, count=1500))
+    for outcome in found:
+        if outcome.result.ok:
+            assert is_sentence(outcome.mutation.text), "what is no sentence has an error"
+    reported = [outcome for outcome in found if not outcome.result.ok]
+    assert len(reported) > len(found) / 2
+    near = sum(outcome.near for outcome in reported) / len(reported)
+    assert near > WANTED, f"{near:.1%}"
+
+
+def main() -> None:
+    seed, count = (int(argument) for argument in [*sys.argv[1:], "1993", "5000"][:2])
+    found = list(outcomes(seed, count))
+    reported = [outcome for outcome in found if not outcome.result.ok]
+    far = [outcome for outcome in reported if not outcome.near]
+    print(
+        f"seed {seed}: {len(found)} mutations, {len(reported)} with errors, first one near: "
+        f"{1 - len(far) / len(reported):.1%}"
+    )
+    print(f"median check {statistics.median(o.seconds for o in found) * 1e3:.1f} ms")
+    print(f"errors a mutation: {Counter(min(len(o.result.diagnostics), 6) for o in reported)}")
+    print(Counter((o.mutation.what, o.first.code) for o in far if o.first).most_common(12))
+    for outcome in far[:: max(len(far) // 12, 1)]:
+        assert outcome.first is not None
+        source = outcome.result.source
+        at = source.position(outcome.mutation.at)
+        where = source.position(outcome.first.span[0])
+        print(
+            f"{outcome.mutation.what} at {at.line}:{at.column} -> {where.line}:{where.column} {outcome.first.message}"
+        )
+        print("    " + source.line(at.line).strip()[:100])
+
+
+if __name__ == "__main__":
+    main()

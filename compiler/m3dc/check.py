@@ -251,7 +251,7 @@ class Checker:
         if block is ANY_BODY:
             self._findings.add("M3D0107", span, detail)
         else:
-            self._findings.add("M3D0106", span, detail, fill=block.keyword)
+            self._findings.add("M3D0106", span, detail, fill=statement_of(block.keyword))
 
     def _wrong_form(self, item: ast.Statement | ast.Table | ast.Block | ast.Variables, block: language.Block) -> str:
         """Why an item does not belong: wrong keyword, or the right keyword in another form."""
@@ -350,6 +350,11 @@ _STOP_CODE = {
     "<": ("M3D0102", ""),
     "*/": ("M3D0105", ""),
 }
+
+
+def statement_of(block: str) -> str:
+    """What the thesis calls a statement of a block: those of all textures alike."""
+    return "TEXTURE Info" if block in LANGUAGE.blocks["TEXTURE"].holds else block
 
 
 def _overwrites(member: program.Member, block: language.Block) -> bool:

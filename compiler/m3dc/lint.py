@@ -107,22 +107,34 @@ def _wrong_side(world: World, findings: Findings) -> None:
 
 def _light_reaches_nothing(world: World, findings: Findings) -> None:
     """A point light reaches something if its cone meets the ball about some primitive. Planes are everywhere."""
-    endless = any(part.block == "PLANE" for part, _ in _primitives(world))
-    balls = [] if endless else [_ball(part, transform) for part, transform in _primitives(world)]
     for light in world.lights:
         source = light if light.block == "SUN" else light.member("SOURCE")
         if source.number("INTENSITY") == 0 or not any(source.vector("COLOR")):
             findings.add_at("M3D0505", source.span, "it has no intensity or is black")
-            continue
-        if endless or light.block == "SUN" or source.flag("INFINITE") or not world.solids:
-            continue
-        half_angle = source.number("ANGLE")
-        if source.number("EXPONENT") > 0:
-            half_angle = min(half_angle, 90.0)
-        position = light.transform.points(np.array(source.vector("FROM")))
-        axis = unit(light.transform.vectors(np.array(source.vector("DIRECTION"))))
-        if not any(_in_cone(position, axis, math.radians(half_angle), *ball) for ball in balls):
+        elif _is_narrow(source) and world.solids and not any(_reaches(light, source, *p) for p in _primitives(world)):
             findings.add_at("M3D0505", source.span, "it shines past every solid")
+
+
+def _is_narrow(source: Record) -> bool:
+    """Whether a light leaves some directions dark."""
+    point = source.block == "SOURCE" and not source.flag("INFINITE")
+    return point and (source.number("ANGLE") < 180 or source.number("EXPONENT") > 0)
+
+
+def _reaches(light: Record, source: Record, part: Record, transform: Transform) -> bool:
+    """Whether the cone of a point light meets a primitive, or at least the ball about it."""
+    if part.block == "PLANE":
+        return True
+    half_angle = min(source.number("ANGLE"), 90.0 if source.number("EXPONENT") > 0 else 180.0)
+    position = light.transform.points(np.array(source.vector("FROM")))
+    axis = unit(light.transform.vectors(np.array(source.vector("DIRECTION"))))
+    centre, radius = _ball(part, transform)
+    offset = centre - position
+    distance = float(np.sqrt(offset @ offset))
+    if distance <= radius:
+        return True
+    away = math.acos(max(-1.0, min(1.0, float(offset @ axis) / distance)))
+    return away - math.asin(radius / distance) <= math.radians(half_angle)
 
 
 def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], float]:
@@ -137,21 +149,6 @@ def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], floa
     points = transform.points(points)
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
-
-
-def _in_cone(
-    position: NDArray[np.float64],
-    axis: NDArray[np.float64],
-    half_angle: float,
-    centre: NDArray[np.float64],
-    radius: float,
-) -> bool:
-    offset = centre - position
-    distance = float(np.sqrt(offset @ offset))
-    if distance <= radius:
-        return True
-    away = math.acos(max(-1.0, min(1.0, float(offset @ axis) / distance)))
-    return away - math.asin(radius / distance) <= half_angle
 
 
 Lint = Callable[[World, Findings], None]

@@ -12,7 +12,7 @@ from .transform import unit
 from .values import Mesh, Record, TableValue
 
 MOST_REPORTED = 20
-PIECE = 1 << 15
+PIECE = 1 << 13
 COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
 
 _NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
@@ -38,9 +38,9 @@ def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> 
     x, y, z = (np.ascontiguousarray(column) for column in positions.T)
     found: list[NDArray[np.intp]] = []
     for start in range(0, len(corners), PIECE):
-        a, b, c = (np.ascontiguousarray(column) for column in corners[start : start + PIECE].T)
-        u = (x[c] - x[b], y[c] - y[b], z[c] - z[b])
-        v = (x[a] - x[b], y[a] - y[b], z[a] - z[b])
+        a, b, c = corners[start : start + PIECE].T.astype(np.intp)
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = ((x.take(i), y.take(i), z.take(i)) for i in (a, b, c))
+        u, v = (cx - bx, cy - by, cz - bz), (ax - bx, ay - by, az - bz)
         found.append(np.flatnonzero(degenerate(u, v)) + start)
     return np.concatenate(found)
 

@@ -16,6 +16,7 @@ from tree_sitter_m3d.formal import SyntaxFault, first_error
 from tree_sitter_m3d.table import LANGUAGE
 
 from .braces import brace_faults, repaired
+from .check import statement_of
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
 
@@ -185,7 +186,7 @@ def _explain(fault: SyntaxFault, text: str, base: int, findings: Findings) -> No
         findings.add("M3D0102", span, f"{found}; a vector is < x, y, z >")
     elif fault.block in LANGUAGE.blocks:
         detail, fix = _near(token, expected, found), _replacement(token, expected, span)
-        findings.add("M3D0106", span, detail, fill=fault.block, fix=fix)
+        findings.add("M3D0106", span, detail, fill=statement_of(fault.block), fix=fix)
     else:
         findings.add("M3D0107", span, _near(token, expected, found), fix=_replacement(token, expected, span))
 

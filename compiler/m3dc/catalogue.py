@@ -127,6 +127,12 @@ CATALOGUE: dict[str, Entry] = {
         "SOLID { SPHERE { RADIUS 1e400 } }",
         "SOLID { SPHERE { RADIUS 1e4 } }",
     ),
+    "M3D0115": _error(
+        "Too many errors",
+        "The compiler gives up after 200 syntax errors or 10000 other problems: the file is probably no scene.",
+        "SOLID { SPHERE { RADIUS -1 } }\n" * 10_001,
+        "SOLID { SPHERE { RADIUS 1 } }",
+    ),
     # --- names ------------------------------------------------------------------------------------------------------
     "M3D0201": _error(
         "Variable already defined",

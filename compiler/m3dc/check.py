@@ -7,7 +7,7 @@ declared and with what type. Values out of range are the evaluator's business, f
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from tree_sitter_m3d import Stop, read_table
@@ -410,19 +410,20 @@ _NOT_FORM = {"M3D0110", "M3D0112", "M3D0114"}
 
 
 def check(
-    source: Source, items: tuple[ast.TopLevel, ...], faulty: frozenset[int], findings: Findings
-) -> tuple[program.Item, ...]:
-    """All items of a scene in file order. In a faulty item only what is certain is reported: nothing but its names."""
+    source: Source, items: Iterable[ast.TopLevel], faulty: frozenset[int], findings: Findings
+) -> Iterator[program.Item]:
+    """All items of a scene in file order, each checked when it is asked for.
+
+    In a faulty item only what is certain is reported: nothing but its names.
+    """
     checker = Checker(source, findings)
-    checked: list[program.Item] = []
     for item in items:
         before = len(findings.found)
         result = checker.item(item)
         if item.start in faulty:
             del findings.found[before:]
         if result is not None:
-            checked.append(result)
+            yield result
     if not faulty:
         checker.report_unused()
     findings.base = 0
-    return tuple(checked)

@@ -8,7 +8,7 @@ their value; those that do more have an entry in `MEANING`, and what must hold o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -48,7 +48,7 @@ class Evaluator:
         self._solids: list[Record] = []
         self._lights: list[Record] = []
 
-    def run(self, items: tuple[program.Item, ...], faulty: frozenset[int]) -> World:
+    def run(self, items: Iterable[program.Item], faulty: frozenset[int]) -> World:
         """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
 
         Of the items that start at a `faulty` byte, which are not whole, nothing is reported.

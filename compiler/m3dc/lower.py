@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import ir
 from .evaluate import World
 from .ir import LightKind, PrimitiveKind, TextureKind
-from .transform import Matrix, Transform, cosine_and_sine, unit
+from .transform import IDENTITY, Matrix, Transform, cosine_and_sine, unit
 from .values import Record
 
 
@@ -242,6 +242,14 @@ def _primitive(rows: _Rows, record: Record, parent: Transform, *, solid: int = -
 
 
 def _sphere(rows: _Rows, record: Record, transform: Transform) -> int:
+    if transform is IDENTITY:
+        return rows.add(
+            "spheres",
+            center=record.vector("CENTER"),
+            radius=record.number("RADIUS"),
+            pole=(0.0, 0.0, 1.0),
+            equator=(1.0, 0.0, 0.0),
+        )
     pole = unit(transform.vectors(np.array([0.0, 0.0, 1.0])))
     x = transform.vectors(np.array([1.0, 0.0, 0.0]))
     return rows.add(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
@@ -28,28 +29,40 @@ _NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 
 
+# Diagnostics after which a text is given up: it is no scene, and nobody reads more.
+MOST_FOUND = 10_000
+MOST_FAULTS = 200  # of form, which are dearer to explain
+
+# A text of which, long tables aside, so many bytes are judged by its head first.
+VERY_LONG = 4_000_000
+HEAD = 500_000
+
+
 class Syntax(NamedTuple):
-    """A parsed scene: its concrete tree, and the top-level items as abstract ones. `faulty` are the starts of the
-    items that hold a syntax error and so may be incomplete."""
+    """A parsed scene: its concrete tree, and the top-level items as abstract ones, made as they are asked for.
+    `faulty` are the starts of the items that hold a syntax error and so may be incomplete."""
 
     tree: Tree
-    items: tuple[ast.TopLevel, ...]
+    items: Iterator[ast.TopLevel]
     faulty: frozenset[int]
 
 
 def parse(source: Source, findings: Findings) -> Syntax:
     """Read a scene. Never raises on any text; what is wrong goes into `findings`."""
     outside = long_tables.outside(source.data)
+    head = _hopeless_head(source.data, outside)
+    if head is not None:
+        return parse(Source(head, source.name), findings)
     tree = _tree(source.data, outside)
     control = _find_control(source.data, outside)
     if control is not None:
         found = f"it holds the byte {source.data[control]:#04x}"
         findings.add("M3D0113", (control, control + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
-        return Syntax(tree, (), frozenset())
+        return Syntax(tree, iter(()), frozenset())
     unclosed = _unclosed_comment(source.data, outside)
     if unclosed is not None:
         findings.add("M3D0105", (unclosed, unclosed + 2), "this comment is never closed with */")
-        return Syntax(tree, (), frozenset())
+        return Syntax(tree, iter(()), frozenset())
     if all(node.type == "comment" for node in tree.root_node.children):
         findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
     if not tree.root_node.has_error:
@@ -59,22 +72,35 @@ def parse(source: Source, findings: Findings) -> Syntax:
 
     data = syntax_errors.mend_braces(source.data, tree.root_node, findings)
     mended = tree if data is source.data else _tree(data, long_tables.outside(data))
-    faulty = syntax_errors.report(data, mended.root_node, findings)
+    faulty = syntax_errors.report(data, mended.root_node, findings, MOST_FAULTS)
+    if faulty is None:
+        return Syntax(tree, iter(()), frozenset())
     return Syntax(tree, _items(mended, data, findings), faulty)
 
 
-def _items(tree: Tree, data: bytes, findings: Findings) -> tuple[ast.TopLevel, ...]:
+def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
+    """The beginning of a very long text if it is full of errors: there is no need to read the rest."""
+    if sum(end - start for start, end in outside) <= VERY_LONG:
+        return None
+    head = data[: data.find(b"\n", HEAD) + 1 or HEAD]
+    tree = _tree(head, long_tables.outside(head))
+    faulty = sum(node.has_error for node in tree.root_node.children)
+    return head if faulty > MOST_FAULTS else None
+
+
+def _items(tree: Tree, data: bytes, findings: Findings) -> Iterator[ast.TopLevel]:
     """The top-level items that can be read, each with spans relative to its start."""
-    items: list[ast.TopLevel] = []
     for node in tree.root_node.children:
         if node.type == "comment":
             continue
         findings.base = node.start_byte
+        if len(findings.found) >= MOST_FOUND:
+            found = f"{len(findings.found)} problems up to here; the rest of the text is not looked at"
+            findings.add("M3D0115", (0, 1), found)
+            return
         item = _Builder(data, findings, node.start_byte).item(node, 0)
         if item is not None:
-            items.append(ast.TopLevel(node.start_byte, item))
-    findings.base = 0
-    return tuple(items)
+            yield ast.TopLevel(node.start_byte, item)
 
 
 def _tree(data: bytes, outside: list[Span]) -> Tree:

@@ -54,15 +54,16 @@ def mend_braces(data: bytes, root: Node, findings: Findings) -> bytes:
     return mended
 
 
-def report(data: bytes, root: Node, findings: Findings) -> frozenset[int]:
+def report(data: bytes, root: Node, findings: Findings, most: int) -> frozenset[int] | None:
     """What is wrong in the form of a text: the first fault of each top-level item.
 
-    Returns where the nodes start that are faulty, or belong to an item that is, and of which no more is to be said.
+    Returns where the nodes start that are faulty, or belong to an item that is, and of which no more is to be said;
+    None if there are so many faults that the text is given up.
     """
     text = _plain(data, root)
     nodes = [node for node in root.children if node.type != "comment"]
     faulty = {node.start_byte for node in nodes if node.has_error or node.is_missing}
-    done = 0
+    done = faults = 0
     for start, end in _stretches(root, nodes):
         start = max(start, done)
         found = False
@@ -74,6 +75,10 @@ def report(data: bytes, root: Node, findings: Findings) -> frozenset[int]:
             if fault is None:
                 break
             found = True
+            faults += 1
+            if faults > most:
+                findings.add("M3D0115", (start, start + 1), f"{most} syntax errors up to here")
+                return None
             _explain(fault, text[start:], start, findings)
             at = start + fault.offset
             if at >= end:

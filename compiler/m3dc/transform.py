@@ -22,11 +22,15 @@ class Transform(NamedTuple):
 
     def then(self, other: Transform) -> Transform:
         """This transformation followed by another: M = self other."""
+        if other is IDENTITY:
+            return self
+        if self is IDENTITY:
+            return other
         return Transform(self.matrix @ other.matrix, other.inverse @ self.inverse)
 
     def points(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points, shape (..., 3), moved; the same array where nothing moves."""
-        if np.array_equal(self.matrix, IDENTITY.matrix):
+        if self is IDENTITY:
             return points
         return points @ self.matrix[:3, :3] + self.matrix[3, :3]
 

@@ -222,6 +222,17 @@ def test_hostile_text_ends_in_a_message(name: str, tmp_path: Path) -> None:
         assert code is None or code == codes[0]
 
 
+@pytest.mark.parametrize("line", [b"SOLID { SPHERE { RADIUS -1 } }\n", b"SOLID { SPHERE { RADUIS 1 } }\n"])
+def test_a_text_full_of_errors_is_given_up(line: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "scene.m3d"
+    path.write_bytes(line * 200_000)
+    done = m3dc("--check", "--message-format", "json", "--max-errors", 20_000, path)
+    codes = [json.loads(found)["code"] for found in done.stdout.splitlines()]
+    assert done.returncode == 1
+    assert codes[-1] == "M3D0115"
+    assert len(codes) <= 10_001
+
+
 def test_a_truncated_example_never_crashes(examples: Path) -> None:
     import m3dc as compiler
 

@@ -17,9 +17,9 @@ def vector(*components: float) -> str:
     return "< " + ", ".join(f"{component + 0.0:.4f}" for component in components) + " >"
 
 
-def table(keyword: str, *head: int, rows: list[str]) -> str:
-    lines = [f"    {keyword}", "    {", "        " + " ".join(str(number) for number in head)]
-    return "\n".join([*lines, *(f"        {row}" for row in rows), "    }"])
+def table(keyword: str, *head: int, rows: list[str], indent: int = 4) -> str:
+    rows = [f"    {row}" for row in (" ".join(str(number) for number in head), *rows)]
+    return "\n".join(" " * indent + line for line in (keyword, "{", *rows, "}"))
 
 
 def on_circle(slice_: int) -> tuple[float, float]:
@@ -75,7 +75,13 @@ cone =
 
 clay = {{ COLOR < 0.8, 0.45, 0.3 > SPECULAR 0.3 ROUGH 0.3 HARD 0 AMBIENT 0.5 }}
 
-SOLID {{ POLYGONS cylinder {{ PHONG TRANSFORM {{ SCALE < 1, 1, 2.5 > }} }} SURFACE clay TRANSFORM {{ TRANSY -3 }} }}
+SOLID
+{{
+    POLYGONS cylinder {{ PHONG TRANSFORM {{ SCALE < 1, 1, 2.5 > }} }}
+    SURFACE clay
+    TRANSFORM {{ TRANSY -3 }}
+}}
+
 SOLID {{ POLYGONS cylinder {{ TRANSFORM {{ SCALE < 1, 1, 2.5 > }} }} SURFACE clay }}
 SOLID {{ POLYGONS cone {{ TRANSFORM {{ SCALE < 1.2, 1.2, 3 > }} }} SURFACE clay TRANSFORM {{ TRANSY 3 }} }}
 SOLID {{ PLANE {{ }} SURFACE {{ COLOR < 0.7, 0.7, 0.7 > SPECULAR 0 AMBIENT 0.4 }} }}
@@ -104,7 +110,7 @@ SOLID
 {{
     TERRAIN
     {{
-    PHONG
+        PHONG
 {vertices}
     }}
     SURFACE {{ COLOR < 0.45, 0.55, 0.3 > SPECULAR 0 AMBIENT 0.4 }}
@@ -115,7 +121,7 @@ SOLID
 def terrain(size: int = 33, extent: float = 10.0) -> str:
     steps = [extent * (2 * i / (size - 1) - 1) for i in range(size)]
     rows = ["  ".join(vector(x, y, height(x, y)) for y in steps) for x in steps]
-    return TERRAIN.format(size=size, vertices=table("VERTICES", size, size, rows=rows))
+    return TERRAIN.format(size=size, vertices=table("VERTICES", size, size, rows=rows, indent=8))
 
 
 def main() -> None:

@@ -7,20 +7,18 @@ there before. Values are stored as they are, without gamma.
 
 from __future__ import annotations
 
+import contextlib
 import os
-import tempfile
-from collections.abc import Callable, Generator, Mapping
-from contextlib import contextmanager
+from collections.abc import Generator, Mapping
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from m3dc.artefact import replacing
+
 SUFFIXES = (".png", ".tif", ".tiff", ".exr", ".raw")
 """The suffixes that name a format."""
-
-_T = TypeVar("_T")
 
 _CHANNELS = ("red", "green", "blue")
 
@@ -37,7 +35,7 @@ def write_picture(
     check_suffix(target)
     if target.suffix.lower() == ".raw":
         return _write_planes(target, picture)
-    with _replacing([target]) as (temporary,):
+    with _replacing(target) as (temporary,):
         _write_image(temporary, picture, metadata or {})
     return [target]
 
@@ -63,7 +61,7 @@ def to_bytes(picture: NDArray[np.floating]) -> NDArray[np.uint8]:
 def _write_planes(target: Path, picture: NDArray[np.floating]) -> list[Path]:
     planes = plane_paths(target)
     values = to_bytes(picture)
-    with _replacing(planes) as temporaries:
+    with _replacing(*planes) as temporaries:
         for channel, temporary in enumerate(temporaries):
             temporary.write_bytes(np.ascontiguousarray(values[..., channel]).tobytes())
     return planes
@@ -97,40 +95,13 @@ def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mappi
         raise PictureError(f"the picture could not be written: {reason or output.geterror()}")
 
 
-@contextmanager
-def _replacing(targets: list[Path]) -> Generator[list[Path]]:
-    """Temporary files beside the targets, which take their place if all goes well and vanish if it does not."""
-    temporaries: list[Path] = []
+@contextlib.contextmanager
+def _replacing(*targets: Path) -> Generator[list[Path]]:
+    """`replacing`, whose failures name the picture."""
     try:
-        for target in targets:
-            temporaries.append(_explained(target, lambda target=target: _temporary_beside(target)))
-        yield temporaries
-        for temporary, target in zip(temporaries, targets, strict=True):
-            _explained(target, lambda a=temporary, b=target: os.replace(a, b))
+        with replacing(*targets) as temporaries:
+            yield temporaries
     except PictureError:
         raise
     except OSError as error:
         raise PictureError(f"{targets[0]}: {error.strerror or error}") from None
-    finally:
-        for temporary in temporaries:
-            temporary.unlink(missing_ok=True)
-
-
-def _temporary_beside(target: Path) -> Path:
-    descriptor, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-    os.fchmod(descriptor, 0o666 & ~_mask())
-    os.close(descriptor)
-    return Path(name)
-
-
-def _mask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _explained(target: Path, action: Callable[[], _T]) -> _T:
-    try:
-        return action()
-    except OSError as error:
-        raise PictureError(f"{target}: {error.strerror or error}") from None

@@ -1,6 +1,6 @@
 """Pictures in files."""
 
-import os
+from pathlib import Path
 
 import numpy as np
 import OpenImageIO
@@ -52,7 +52,7 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, picture, monkeypatch):
     wide = np.zeros((2, 2, 3, 2))
     with pytest.raises(ValueError, match="unpack"):
         m3d_render.write_picture(path, wide)
-    monkeypatch.setattr(os, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
     with pytest.raises(m3d_render.PictureError, match="No space left"):
         m3d_render.write_picture(path, picture)
     assert path.read_text() == "old"

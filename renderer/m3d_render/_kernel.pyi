@@ -5,10 +5,18 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.rendering import Request
 from m3dc.ir import SceneIR
 
 VERSION: str
+LAYERS: list[tuple[str, int]]
 TEXTURE_KINDS: list[int]
+
+class Outcome:
+    pixels: NDArray[np.float32]
+    layers: NDArray[np.float32]
+    finished_rows: int
+    counts: dict[str, int]
 
 class Scene:
     def __new__(cls, ir: SceneIR, finer: int) -> Scene: ...
@@ -16,21 +24,11 @@ class Scene:
     def observer(self) -> tuple[float, float, float] | None: ...
     def render(
         self,
-        *,
-        width: int,
-        height: int,
-        left: int,
-        top: int,
-        columns: int,
-        rows: int,
-        straight: bool,
-        shadows: bool,
-        depth: int,
-        log_scale: float,
-        threads: int,
+        request: Request,
         progress: Callable[[int, int], object] | None,
         cancel: Callable[[], object] | None,
-    ) -> tuple[NDArray[np.float32], dict[str, int]] | None: ...
+        tiles: Callable[[int, int, NDArray[np.float32]], object] | None,
+    ) -> Outcome: ...
 
 def trace_paths(
     ir: SceneIR, height: float, slopes: list[float], distances: list[float], finer: int

@@ -7,124 +7,158 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
-import os
 import sys
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from m3d_render import _kernel
+from m3d_render import _kernel, command
+from m3d_render.command import FINE, INTERRUPTED, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.interrupt import Interrupt
+from m3d_render.metadata import metadata
+from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES
 from m3d_render.picture import SUFFIXES, PictureError, check_suffix, plane_paths, write_picture
 from m3d_render.progress import ProgressLine
-from m3d_render.rendering import LARGEST_SIDE, Rendering, SceneError, missing_textures, prepare
+from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, missing_textures, prepare
 from m3dc import compile as compile_scene
-from m3dc import m3ir, report
+from m3dc import report
 from m3dc.ir import SceneIR
 
-FINE, SCENE_ERROR, USAGE_ERROR, INTERRUPTED = 0, 1, 2, 130
-
-
-class _CommandError(Exception):
-    """Ends the command with a status and, unless it has been said already, a message."""
-
-    def __init__(self, status: int, message: str = "") -> None:
-        super().__init__(message)
-        self.status = status
+WRONG_NORMALS = "M3D0511"
+"""The compiler's code for facets whose normals point to the wrong side."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
-    options = _parser().parse_args(arguments)
-    try:
-        _run(options)
-    except _CommandError as failure:
-        if str(failure):
-            _say(f"error: {failure}")
-        return failure.status
-    except KeyboardInterrupt:
-        _say("interrupted: no picture was written")
-        return INTERRUPTED
-    except MemoryError:
-        _say("error: the scene or its picture does not fit in memory; a smaller --width and --height may")
-        return USAGE_ERROR
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return USAGE_ERROR
-    return FINE
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.check_normals:
+        return command.ended(parser.prog, lambda: _check_normals(options.scene))
+    if options.output is None:
+        parser.error("where should the picture go? Give -o PICTURE")
+    return command.ended(parser.prog, lambda: _run(options))
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="m3d-render",
+        usage="m3d-render SCENE -o PICTURE [options]\n       m3d-render SCENE.m3d --check-normals",
         description="Render a scene to a picture; rays follow the scene's MIRAGE unless --straight.",
-        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
+        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted: the finished rows "
+        "are written.",
     )
-    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir")
+    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
     parser.add_argument(
-        "-o", dest="output", metavar="PICTURE", required=True, type=Path,
+        "-o",
+        dest="output",
+        metavar="PICTURE",
+        type=Path,
         help=f"where to write the picture; its suffix names the format: {', '.join(SUFFIXES)}",
-    )  # fmt: skip
-    parser.add_argument("--straight", action="store_true", help="straight rays, whatever MIRAGE says")
-    side = _whole(1, LARGEST_SIDE)
-    parser.add_argument("--width", type=side, metavar="N", help="pixels in a row, instead of the scene's")
-    parser.add_argument("--height", type=side, metavar="N", help="pixels in a column, instead of the scene's")
-    parser.add_argument("--threads", type=_whole(1, 4096), metavar="N", help="threads; all processors if not given")
-    parser.add_argument(
-        "--shadows", action="store_true", default=None, help="cast shadows, even if the scene does not say so"
-    )
-    parser.add_argument(
-        "--depth", type=_whole(1, 1_000_000_000), metavar="N", help="level of the last mirror ray; the eye ray is 1"
-    )
-    parser.add_argument("--log-scale", type=_number, metavar="S", help="LOGSCALE, instead of the scene's; above 1")
-    parser.add_argument(
-        "--stats", action="store_true", help="print a JSON object: seconds, rays of each kind, arcs, peak memory"
     )
     parser.add_argument("--version", action="version", version=f"m3d-render {_kernel.VERSION}")
+    parser.add_argument(
+        "--check-normals",
+        action="store_true",
+        help="render nothing: report facets whose normals point to the wrong side",
+    )
+    _add_view(parser.add_argument_group("view, instead of the scene's"))
+    _add_light(parser.add_argument_group("light and air"))
+    more = parser.add_argument_group("beyond the thesis")
+    more.add_argument(
+        "--samples",
+        type=command.whole(1, MOST_SAMPLES),
+        default=1,
+        metavar="N",
+        help="rays a pixel, spread by a smooth filter: no jagged edges (1)",
+    )
+    more.add_argument("--refract-reflections", action="store_true", help="the air bends mirror rays too")
+    more.add_argument(
+        "--aov",
+        type=_layers,
+        default=(),
+        metavar="NAME,...",
+        help=f"extra channels in an .exr: {', '.join(LAYERS)}; or all",
+    )
+    work = parser.add_argument_group("work")
+    threads = command.whole(1, 4096)
+    work.add_argument("--threads", type=threads, metavar="N", help="threads; all processors if not given")
+    work.add_argument(
+        "--stats", action="store_true", help="print a JSON object: seconds, rays of each kind, arcs, peak memory"
+    )
     return parser
 
 
-def _whole(least: int, most: int) -> Callable[[str], int]:
-    def parse(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"a whole number is expected, not '{text}'") from None
-        if not least <= value <= most:
-            raise argparse.ArgumentTypeError(f"{value} is not from {least} to {most}")
-        return value
-
-    return parse
-
-
-def _number(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"a number is expected, not '{text}'")
-    return value
+def _add_view(group: argparse._ArgumentGroup) -> None:  # pyright: ignore[reportPrivateUsage]
+    side = command.whole(1, LARGEST_SIDE)
+    group.add_argument("--width", type=side, metavar="N", help="pixels in a row")
+    group.add_argument("--height", type=side, metavar="N", help="pixels in a column")
+    part = group.add_mutually_exclusive_group()
+    part.add_argument(
+        "--region",
+        type=command.numbers(4, ",", "T,L,B,R"),
+        metavar="T,L,B,R",
+        help="only this part: top row, left column, bottom row, right column, from 0",
+    )
+    part.add_argument(
+        "--rows", type=command.numbers(2, ":", "A:B"), metavar="A:B", help="only rows A to B, both included, from 0"
+    )
 
 
-def _run(options: argparse.Namespace) -> None:
+def _add_light(group: argparse._ArgumentGroup) -> None:  # pyright: ignore[reportPrivateUsage]
+    group.add_argument("--straight", action="store_true", help="straight rays, whatever MIRAGE says")
+    group.add_argument(
+        "--shadows", action="store_true", default=None, help="cast shadows, even if the scene does not say so"
+    )
+    group.add_argument(
+        "--depth",
+        type=command.whole(1, 1_000_000_000),
+        metavar="N",
+        help="level of the last mirror ray; the eye ray is 1",
+    )
+    group.add_argument(
+        "--normalize", action="store_true", help="divide by the largest value, before LOGSCALE, instead of clipping"
+    )
+    group.add_argument(
+        "--log-scale", type=command.number, metavar="S", help="LOGSCALE, instead of the scene's; above 1"
+    )
+
+
+def _layers(text: str) -> tuple[str, ...]:
+    if text == "all":
+        return tuple(LAYERS)
+    names = tuple(text.split(","))
+    unknown = [name for name in names if name not in LAYERS]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is none of {', '.join(LAYERS)}")
+    return names
+
+
+def _check_normals(scene: str) -> int:
+    if scene.lower().endswith(".m3ir"):
+        raise CommandError(USAGE_ERROR, f"{scene}: normals are checked in the scene's text; give the .m3d")
+    result = compile_scene(command.read(scene), scene)
+    shown = [found for found in result.diagnostics if found.code == WRONG_NORMALS or found.severity == "error"]
+    report.print_human(shown, result.source, sys.stderr)
+    return SCENE_ERROR if shown else FINE
+
+
+def _run(options: argparse.Namespace) -> int:
     output: Path = options.output
-    _check_output(output)
+    _check_output(output, options.aov)
     started = time.perf_counter()
-    ir = _load(options.scene)
+    ir = command.load(options.scene)
     load = time.perf_counter() - started
     missing = missing_textures(ir)
     if missing:
         names, them = ", ".join(missing), "it" if len(missing) == 1 else "them"
         _say(f"warning: this version does not have the texture {names}: rendering without {them}")
-    rendering = _render(ir, options)
+    rendering, whole = _render(ir, options)
     started = time.perf_counter()
-    metadata = {"Software": f"m3d-render {_kernel.VERSION}", "ImageDescription": _name(options.scene)}
-    try:
-        write_picture(output, rendering.picture, metadata)
-    except PictureError as error:
-        raise _CommandError(USAGE_ERROR, str(error)) from None
+    if rendering.picture.size:
+        _write(output, ir, rendering, options)
+    if not whole:
+        raise CommandError(INTERRUPTED, _interrupted(output, rendering))
     if options.stats:
         seconds = {
             "load": load,
@@ -133,69 +167,84 @@ def _run(options: argparse.Namespace) -> None:
             "write": time.perf_counter() - started,
         }
         print(json.dumps(_stats(rendering, seconds)), flush=True)
+    return FINE
 
 
-def _render(ir: SceneIR, options: argparse.Namespace) -> Rendering:
+def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, bool]:
+    """What was rendered, and whether it is all that was asked for."""
     progress = ProgressLine(sys.stderr) if sys.stderr.isatty() else None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)
             scene = prepare(ir)
-        return scene.render(
-            width=options.width,
-            height=options.height,
-            straight=options.straight,
-            shadows=options.shadows,
-            depth=options.depth,
-            log_scale=options.log_scale,
-            threads=options.threads,
-            progress=progress,
-        )
+        with Interrupt() as interrupt:
+            rendering = scene.render(
+                width=options.width,
+                height=options.height,
+                region=options.region,
+                rows=options.rows,
+                straight=options.straight,
+                shadows=options.shadows,
+                depth=options.depth,
+                normalize=options.normalize,
+                log_scale=options.log_scale,
+                samples=options.samples,
+                refract_reflections=options.refract_reflections,
+                aov=options.aov,
+                threads=options.threads,
+                progress=progress,
+                cancel=interrupt.asked,
+            )
+        return rendering, True
+    except Cancelled as cancelled:
+        return cancelled.rendering, False
     except SceneError as error:
-        raise _CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
+        asked = options.region is not None or options.rows is not None
+        status = USAGE_ERROR if asked and "lie" in str(error) else SCENE_ERROR
+        raise CommandError(status, f"{options.scene}: {error}") from None
     finally:
         if progress is not None:
             progress.clear()
 
 
-def _check_output(output: Path) -> None:
+def _write(output: Path, ir: SceneIR, rendering: Rendering, options: argparse.Namespace) -> None:
+    described = metadata(ir, rendering, command.name(options.scene))
+    origin = (rendering.region.left, rendering.region.top)
+    try:
+        write_picture(
+            output,
+            rendering.picture,
+            described,
+            layers=rendering.layers,
+            origin=origin,
+            whole=(rendering.width, rendering.height),
+        )
+    except PictureError as error:
+        raise CommandError(USAGE_ERROR, str(error)) from None
+
+
+def _interrupted(output: Path, rendering: Rendering) -> str:
+    part = rendering.region
+    if not rendering.picture.size:
+        return "interrupted: no row was finished, and no picture written"
+    return (
+        f"interrupted: {output} holds rows {part.top} to {part.bottom}; "
+        f"rows from {part.bottom + 1} on are not rendered (--rows, --region)"
+    )
+
+
+def _check_output(output: Path, layers: Sequence[str]) -> None:
     """Finds out before the work begins what would spoil its end."""
     try:
         check_suffix(output)
     except PictureError as error:
-        raise _CommandError(USAGE_ERROR, str(error)) from None
-    folder = output.parent
-    if not folder.is_dir():
-        what = "is not a folder" if folder.exists() else "does not exist"
-        raise _CommandError(USAGE_ERROR, f"{output}: the folder {folder} {what}; make it first, or choose another")
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise _CommandError(USAGE_ERROR, f"{output}: the folder {folder} does not allow writing")
+        raise CommandError(USAGE_ERROR, str(error)) from None
+    if layers and output.suffix.lower() != ".exr":
+        raise CommandError(USAGE_ERROR, f"{output}: only an .exr can hold what --aov asks for")
+    command.check_folder(output)
     for path in plane_paths(output) if output.suffix.lower() == ".raw" else [output]:
         if path.is_dir():
-            raise _CommandError(USAGE_ERROR, f"{path}: a folder of this name is in the way of the picture")
-
-
-def _load(scene: str) -> SceneIR:
-    if scene.lower().endswith(".m3ir"):
-        try:
-            return m3ir.read(Path(scene))
-        except OSError as error:
-            raise _CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
-        except m3ir.FormatError as error:
-            raise _CommandError(USAGE_ERROR, f"{scene}: {error}") from None
-    try:
-        source = sys.stdin.buffer.read() if scene == "-" else Path(scene).read_bytes()
-    except OSError as error:
-        raise _CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
-    result = compile_scene(source, scene)
-    report.print_human(result.diagnostics, result.source, sys.stderr)
-    if not result.ok:
-        raise _CommandError(SCENE_ERROR)
-    return result.ir
-
-
-def _name(scene: str) -> str:
-    return "standard input" if scene == "-" else Path(scene).name
+            raise CommandError(USAGE_ERROR, f"{path}: a folder of this name is in the way of the picture")
 
 
 def _stats(rendering: Rendering, seconds: dict[str, float]) -> dict[str, object]:
@@ -208,6 +257,7 @@ def _stats(rendering: Rendering, seconds: dict[str, float]) -> dict[str, object]
             "mirage": rays.mirage,
             "reflected": rays.reflected,
             "shadow": rays.shadow,
+            "ambient": rays.ambient,
         },
         "arcs": rays.arcs,
         "peak_memory": _peak_memory(),

@@ -11,16 +11,31 @@ import contextlib
 import os
 from collections.abc import Generator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from m3dc.artefact import replacing
 
+if TYPE_CHECKING:
+    import OpenImageIO
+
 SUFFIXES = (".png", ".tif", ".tiff", ".exr", ".raw")
 """The suffixes that name a format."""
 
-_CHANNELS = ("red", "green", "blue")
+CHANNELS: dict[str, list[str]] = {
+    "depth": ["Z"],
+    "normal": ["N.X", "N.Y", "N.Z"],
+    "position": ["P.X", "P.Y", "P.Z"],
+    "solid": ["solid"],
+    "primitive": ["primitive"],
+    "uv": ["U", "V"],
+    "path": ["path.length", "path.arcs"],
+}
+"""What the extra outputs are called in an EXR."""
+
+_PLANES = ("red", "green", "blue")
 
 
 class PictureError(OSError):
@@ -28,15 +43,33 @@ class PictureError(OSError):
 
 
 def write_picture(
-    path: str | os.PathLike[str], picture: NDArray[np.floating], metadata: Mapping[str, str] | None = None
+    path: str | os.PathLike[str],
+    picture: NDArray[np.floating],
+    metadata: Mapping[str, str] | None = None,
+    *,
+    layers: Mapping[str, NDArray[np.floating]] | None = None,
+    origin: tuple[int, int] = (0, 0),
+    whole: tuple[int, int] | None = None,
 ) -> list[Path]:
-    """Writes a picture (rows x columns x 3, 0..1) in the format of the path's suffix; returns the files written."""
+    """Writes a picture (rows x columns x 3, 0..1) in the format of the path's suffix; returns the files written.
+
+    An EXR holds more: extra outputs, `layers`, as channels (see `CHANNELS`), and where in a `whole` picture of so
+    many columns and rows this one has its upper left pixel, `origin`, as (column, row).
+    """
     target = Path(path)
     check_suffix(target)
-    if target.suffix.lower() == ".raw":
+    suffix = target.suffix.lower()
+    if layers and suffix != ".exr":
+        raise PictureError(f"{target}: only an .exr can hold extra outputs")
+    if suffix == ".raw":
         return _write_planes(target, picture)
     with _replacing(target) as (temporary,):
-        _write_image(temporary, picture, metadata or {})
+        if suffix == ".exr":
+            _write_exr(temporary, picture, metadata or {}, layers or {}, origin, whole)
+        else:
+            levels, kind = (255.0, np.uint8) if suffix == ".png" else (65535.0, np.uint16)
+            pixels = np.rint(np.clip(picture, 0.0, 1.0) * levels).astype(kind)
+            _write_image(temporary, pixels, _spec(pixels, metadata or {}))
     return [target]
 
 
@@ -50,7 +83,7 @@ def check_suffix(target: Path) -> None:
 
 def plane_paths(target: Path) -> list[Path]:
     """The three files of a .raw picture."""
-    return [target.with_name(f"{target.stem}.{channel}{target.suffix}") for channel in _CHANNELS]
+    return [target.with_name(f"{target.stem}.{channel}{target.suffix}") for channel in _PLANES]
 
 
 def to_bytes(picture: NDArray[np.floating]) -> NDArray[np.uint8]:
@@ -67,23 +100,45 @@ def _write_planes(target: Path, picture: NDArray[np.floating]) -> list[Path]:
     return planes
 
 
-def _write_image(temporary: Path, picture: NDArray[np.floating], metadata: Mapping[str, str]) -> None:
+def _write_exr(
+    temporary: Path,
+    picture: NDArray[np.floating],
+    metadata: Mapping[str, str],
+    layers: Mapping[str, NDArray[np.floating]],
+    origin: tuple[int, int],
+    whole: tuple[int, int] | None,
+) -> None:
+    names = ["R", "G", "B"]
+    parts = [picture]
+    for name, values in layers.items():
+        names += CHANNELS[name]
+        parts.append(values.reshape(*picture.shape[:2], len(CHANNELS[name])))
+    pixels = np.concatenate(parts, axis=2, dtype=np.float32, casting="same_kind")
+    spec = _spec(pixels, metadata)
+    spec.channelnames = tuple(names)
+    spec.x, spec.y = origin
+    if whole is not None:
+        spec.full_width, spec.full_height = whole
+    _write_image(temporary, pixels, spec)
+
+
+def _spec(pixels: NDArray[Any], metadata: Mapping[str, str]) -> OpenImageIO.ImageSpec:
     import OpenImageIO
 
-    rows, columns, channels = picture.shape
-    suffix = temporary.suffix.lower()
-    if suffix == ".png":
-        pixels, kind = to_bytes(picture), "uint8"
-    elif suffix == ".exr":
-        pixels, kind = picture.astype(np.float32), "float"
-    else:
-        pixels, kind = np.rint(np.clip(picture, 0.0, 1.0) * 65535.0).astype(np.uint16), "uint16"
+    rows, columns, channels = pixels.shape
+    kind = {"uint8": "uint8", "uint16": "uint16", "float32": "float"}[pixels.dtype.name]
     spec = OpenImageIO.ImageSpec(columns, rows, channels, kind)
     for name, value in metadata.items():
         spec.attribute(name, value)
+    return spec
+
+
+def _write_image(temporary: Path, pixels: NDArray[Any], spec: OpenImageIO.ImageSpec) -> None:
+    import OpenImageIO
+
     output = OpenImageIO.ImageOutput.create(str(temporary))
     if not output:
-        raise PictureError(f"no writer for {suffix}: {OpenImageIO.geterror()}")
+        raise PictureError(f"no writer for {temporary.suffix}: {OpenImageIO.geterror()}")
     try:
         # The stub leaves one of its overloads open.
         opened = output.open(str(temporary), spec)  # pyright: ignore[reportUnknownMemberType]

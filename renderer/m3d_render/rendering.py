@@ -5,22 +5,21 @@ from __future__ import annotations
 import os
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render import _kernel
+from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
 from m3dc.ir import SceneIR, TextureKind
 
-Picture: TypeAlias = NDArray[np.float32]
-Progress: TypeAlias = Callable[[int, int], object]
-Cancel: TypeAlias = Callable[[], object]
+Layers: TypeAlias = dict[str, NDArray[np.float32]]
 
-LARGEST_SIDE = 65_535
-"""Pixels a picture may have in a row, or in a column."""
+LAYERS: dict[str, int] = dict(_kernel.LAYERS)
+"""The extra outputs, and how many numbers a pixel each has."""
 
 
 class SceneError(ValueError):
@@ -28,28 +27,65 @@ class SceneError(ValueError):
 
 
 class Cancelled(Exception):  # noqa: N818  it is no error
-    """The `cancel` callback ended the rendering."""
+    """The `cancel` callback ended the rendering. `rendering` is what there is: the finished rows from the top."""
+
+    def __init__(self, rendering: Rendering) -> None:
+        super().__init__("the rendering was cancelled")
+        self.rendering = rendering
 
 
 @dataclass(frozen=True, slots=True)
 class Rays:
-    """How many rays were traced: from the eye (of them `mirage` curved ones, made of `arcs`), and on from surfaces."""
+    """How many rays were traced: from the eye (of them `mirage` curved ones), on from surfaces to mirrored things,
+    lights and the surroundings; and of how many arcs all curved ones are made."""
 
     eye: int
     mirage: int
     reflected: int
     shadow: int
+    ambient: int
     arcs: int
 
 
 @dataclass(frozen=True, slots=True)
 class Rendering:
-    """A picture and what it took. Seconds: `build` for the kernel's own scene, `trace` for the picture."""
+    """A picture and what it took.
+
+    `picture` and each of `layers` begin with the rows and columns of `region`, a part of a picture of `width` x
+    `height` pixels. Seconds: `build` for the kernel's own scene, `trace` for the picture. `bent` is whether rays
+    were.
+    """
 
     picture: Picture
+    layers: Layers
+    region: Region
+    width: int
+    height: int
+    bent: bool
     rays: Rays
     build: float
     trace: float
+    threads: int
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What the kernel is asked for, every choice made."""
+
+    width: int
+    height: int
+    left: int
+    top: int
+    columns: int
+    rows: int
+    straight: bool
+    shadows: bool
+    depth: int
+    log_scale: float
+    normalize: bool
+    samples: int
+    refract_reflections: bool
+    layers: list[str]
     threads: int
 
 
@@ -61,51 +97,73 @@ class Prepared:
     kernel: _kernel.Scene
     seconds: float
 
-    def render(
-        self,
-        *,
-        width: int | None = None,
-        height: int | None = None,
-        straight: bool = False,
-        shadows: bool | None = None,
-        depth: int | None = None,
-        log_scale: float | None = None,
-        threads: int | None = None,
-        progress: Progress | None = None,
-        cancel: Cancel | None = None,
-    ) -> Rendering:
-        """A picture, by the same arguments as `m3d_render.render`."""
+    def render(self, *, aov: Iterable[str] = (), **options: Unpack[RenderOptions]) -> Rendering:
+        """A picture by the options, with extra outputs (AOVs) by their names in `LAYERS`.
+
+        `depth` is the distance along the direction of view, infinite where a ray meets nothing; `normal` the unit
+        vector that shades, before textures and FUZZ; `position` the point in the scene; `solid` and `primitive` the
+        rows of those tables of the IR, `uv` the primitive's coordinates, all -1 where there are none; `path` the
+        length of the ray and of how many arcs it is made. Each belongs to the ray through the pixel's middle.
+        """
+        request = self._request(tuple(aov), options)
+        bent = self.kernel.observer is not None and not request.straight
+        if bent:
+            self._check_observer()
+        tiles = options.get("tiles")
+
+        def show(top: int, step: int, pixels: Picture) -> None:
+            if tiles is not None:
+                tiles(Tile(top, step, pixels))
+
+        started = time.perf_counter()
+        outcome = self.kernel.render(
+            request, options.get("progress"), options.get("cancel"), None if tiles is None else show
+        )
+        done = outcome.finished_rows
+        rendering = Rendering(
+            outcome.pixels[:done],
+            _split(outcome.layers[:done], request.layers),
+            Region(request.top, request.left, request.top + done - 1, request.left + request.columns - 1),
+            request.width,
+            request.height,
+            bent,
+            Rays(**outcome.counts),
+            self.seconds,
+            time.perf_counter() - started,
+            request.threads,
+        )
+        if done < request.rows:
+            raise Cancelled(rendering)
+        return rendering
+
+    def _request(self, aov: tuple[str, ...], options: RenderOptions) -> Request:
+        unknown = [*(options.keys() - RenderOptions.__annotations__), *(set(aov) - LAYERS.keys())]
+        if unknown:
+            raise TypeError(f"render() has no option or extra output {', '.join(sorted(unknown))}")
         scene = self.ir.scene
         view = scene.view
-        columns = _side("width", view.width if width is None else width)
-        rows = _side("height", view.height if height is None else height)
-        left, top, right, bottom = 0, 0, columns - 1, rows - 1
-        if width is None and height is None:
-            left, right = _clamp(view.left, columns), _clamp(view.right_edge, columns)
-            top, bottom = _clamp(view.top, rows), _clamp(view.bottom, rows)
-        if not straight:
-            self._check_observer()
-        workers = usable_threads() if threads is None else _whole("threads", threads, 1, 4096)
-        started = time.perf_counter()
-        result = self.kernel.render(
+        width, height, threads = options.get("width"), options.get("height"), options.get("threads")
+        columns = _whole("width", view.width if width is None else width, 1, LARGEST_SIDE)
+        rows = _whole("height", view.height if height is None else height, 1, LARGEST_SIDE)
+        part = _part(self.ir, options, columns, rows)
+        depth, shadows, log_scale = options.get("depth"), options.get("shadows"), options.get("log_scale")
+        return Request(
             width=columns,
             height=rows,
-            left=left,
-            top=top,
-            columns=max(right, left) - left + 1,
-            rows=max(bottom, top) - top + 1,
-            straight=straight,
+            left=part.left,
+            top=part.top,
+            columns=part.right - part.left + 1,
+            rows=part.bottom - part.top + 1,
+            straight=options.get("straight", False),
             shadows=scene.shadows if shadows is None else bool(shadows),
             depth=_whole("depth", scene.depth if depth is None else depth, 1, 1_000_000_000),
             log_scale=float(scene.log_scale if log_scale is None else log_scale),
-            threads=workers,
-            progress=progress,
-            cancel=cancel,
+            normalize=options.get("normalize", False),
+            samples=_whole("samples", options.get("samples", 1), 1, MOST_SAMPLES),
+            refract_reflections=options.get("refract_reflections", False),
+            layers=list(dict.fromkeys(aov)),
+            threads=usable_threads() if threads is None else _whole("threads", threads, 1, 4096),
         )
-        if result is None:
-            raise Cancelled
-        picture, counts = result
-        return Rendering(picture, Rays(**counts), self.seconds, time.perf_counter() - started, workers)
 
     def _check_observer(self) -> None:
         heights = self.kernel.observer
@@ -119,41 +177,52 @@ class Prepared:
             )
 
 
-def render(
-    ir: SceneIR,
-    *,
-    width: int | None = None,
-    height: int | None = None,
-    straight: bool = False,
-    shadows: bool | None = None,
-    depth: int | None = None,
-    log_scale: float | None = None,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    cancel: Cancel | None = None,
-) -> Picture:
+def _part(ir: SceneIR, options: RenderOptions, columns: int, rows: int) -> Region:
+    """What of a picture of so many columns and rows is wanted. The scene's REGION is moved to lie within, as the
+    manual says; one that is asked for must begin within."""
+    asked, band = options.get("region"), options.get("rows")
+    if asked is not None and band is not None:
+        raise SceneError("a region or rows may be given, not both")
+    if asked is None and band is None:
+        if options.get("width") is not None or options.get("height") is not None:
+            return Region(0, 0, rows - 1, columns - 1)
+        view = ir.scene.view
+        top, left = _clamp(view.top, rows), _clamp(view.left, columns)
+        return Region(top, left, max(top, _clamp(view.bottom, rows)), max(left, _clamp(view.right_edge, columns)))
+    if band is not None:
+        asked = Region(band[0], 0, band[1], columns - 1)
+    elif asked is not None and not isinstance(asked, Region):
+        asked = Region(*asked)
+    assert asked is not None
+    if not (0 <= asked.top <= asked.bottom and 0 <= asked.left <= asked.right):
+        raise SceneError(f"no pixel lies between {_corners(asked)}")
+    if asked.top >= rows or asked.left >= columns:
+        raise SceneError(f"{_corners(asked)} lies outside of a picture of {columns} columns and {rows} rows")
+    return Region(asked.top, asked.left, min(asked.bottom, rows - 1), min(asked.right, columns - 1))
+
+
+def _corners(part: Region) -> str:
+    return f"row {part.top}, column {part.left} and row {part.bottom}, column {part.right}"
+
+
+def _split(values: NDArray[np.float32], layers: list[str]) -> Layers:
+    """Each layer by its name; one of a single number a pixel has no third axis."""
+    found: Layers = {}
+    first = 0
+    for name in layers:
+        count = LAYERS[name]
+        found[name] = values[..., first] if count == 1 else values[..., first : first + count]
+        first += count
+    return found
+
+
+def render(ir: SceneIR, **options: Unpack[RenderOptions]) -> Picture:
     """The picture of a scene: rows x columns x (red, green, blue), from 0 to 1.
 
-    What is not given is as the scene says. `straight` ignores its MIRAGE. With a `width` or a `height` the whole
-    picture is rendered, otherwise the REGION of its VIEW. `progress(rows, all_rows)` is called as rows are finished;
-    `cancel()` is asked several times a second, and once it returns true, `Cancelled` is raised. The picture does
-    not depend on the number of `threads`.
+    What is not given is as the scene says. For extra outputs, counts and several pictures of one scene see
+    `prepare`.
     """
-    return (
-        prepare(ir)
-        .render(
-            width=width,
-            height=height,
-            straight=straight,
-            shadows=shadows,
-            depth=depth,
-            log_scale=log_scale,
-            threads=threads,
-            progress=progress,
-            cancel=cancel,
-        )
-        .picture
-    )
+    return prepare(ir).render(**options).picture
 
 
 def prepare(ir: SceneIR, *, finer: int = 1) -> Prepared:
@@ -189,10 +258,6 @@ def _whole(name: str, value: int, least: int, most: int) -> int:
     if not least <= value <= most:
         raise SceneError(f"{name} must be from {least} to {most}, not {value}")
     return int(value)
-
-
-def _side(name: str, value: int) -> int:
-    return _whole(name, value, 1, LARGEST_SIDE)
 
 
 def _clamp(value: int, length: int) -> int:

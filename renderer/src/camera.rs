@@ -22,11 +22,17 @@ pub struct Size {
 impl Camera {
     /// D = (P - O)/|P - O| of pixel (x, y), counted from the top left, where
     /// P = VRP + (2u - 1) VR + (1 - 2v) (height/width) aspect VUP, u = x/(width - 1), v = y/(height - 1).
-    pub fn direction(&self, size: Size, x: usize, y: usize) -> DVec3 {
-        let share = |i: usize, n: usize| if n > 1 { i as f64 / (n - 1) as f64 } else { 0.5 };
+    /// Whole numbers are the pixels' middles.
+    pub fn direction(&self, size: Size, x: f64, y: f64) -> DVec3 {
+        let share = |i: f64, n: usize| if n > 1 { i / (n - 1) as f64 } else { 0.5 + i };
         let (u, v) = (share(x, size.width), share(y, size.height));
         let upright = size.height as f64 / size.width as f64 * self.aspect;
         let point = self.reference_point + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * upright * self.up;
         (point - self.eye).normalize_or_zero()
+    }
+
+    /// How far a point lies from the eye along the direction of view.
+    pub fn depth(&self, point: DVec3) -> f64 {
+        (point - self.eye).dot((self.reference_point - self.eye).normalize_or_zero())
     }
 }

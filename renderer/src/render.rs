@@ -1,28 +1,40 @@
-//! A picture: eye rays, the mirror rays and shadow rays they cause, and the rows of pixels they make.
-//! Thesis 3.1 and 4.2.
+//! One pixel: its eye rays, the mirror rays, shadow rays and sample rays they cause, and the colour that comes of it.
+//! Thesis 3.1, 3.4 and 4.2.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use crate::bvh::Visit;
 use crate::camera::Size;
 use crate::film::Film;
+use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
 use crate::optics::path::Path;
+use crate::random::Place;
 use crate::ray::{Hit, Ray, ShapeId};
 use crate::scene::{Background, Owner, Scene};
 use crate::shade::illumination::LitPoint;
+use crate::shade::scatter::{into_hemisphere, roughened};
 use crate::shape::RadialPlane;
+use crate::supersampling::Filter;
 use crate::texture::{Spot, Texture};
-use crate::trace::{blocked, clearance, nearest, nearest_on_curve};
+use crate::trace::{Departure, blocked, clearance, nearest, nearest_on_curve};
 
 /// A ray with a horizontal part shorter than this is straight.
 const NEARLY_VERTICAL: f64 = 1e-6;
 
+/// Indirect light that makes up less of a pixel than this is not sampled: the constant stands for it.
+const FAINTEST: f64 = 1e-7;
+
+/// So many sample rays may start one from another. Almost always they are too faint long before.
+const DEEPEST: usize = 64;
+
+/// Number of the place where FUZZ draws, after those of the mirror ray, 0, and of the sample rays, from 1.
+const FUZZ: u64 = u64::MAX;
+
 /// What may be asked of a picture of a scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Settings {
     pub size: Size,
     /// The part to render: its first column and row, and how many there are.
@@ -33,7 +45,20 @@ pub struct Settings {
     pub shadows: bool,
     /// Level of the last mirror ray; the eye ray is level 1.
     pub depth: usize,
+    /// Eye rays a pixel; 1 goes through its middle.
+    pub samples: usize,
+    /// Whether the air bends mirror rays too.
+    pub refract_reflections: bool,
+    /// Extra outputs, in this order.
+    pub layers: Vec<Layer>,
     pub film: Film,
+}
+
+impl Settings {
+    /// Numbers a pixel that the extra outputs take.
+    pub fn channels(&self) -> usize {
+        self.layers.iter().map(|layer| layer.channels()).sum()
+    }
 }
 
 /// How many rays of each kind were traced, and the arcs of the curved ones.
@@ -43,96 +68,150 @@ pub struct Tally {
     pub mirage: u64,
     pub reflected: u64,
     pub shadow: u64,
+    pub ambient: u64,
     pub arcs: u64,
 }
 
 impl Tally {
-    fn plus(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         Self {
             eye: self.eye + other.eye,
             mirage: self.mirage + other.mirage,
             reflected: self.reflected + other.reflected,
             shadow: self.shadow + other.shadow,
+            ambient: self.ambient + other.ambient,
             arcs: self.arcs + other.arcs,
         }
     }
 }
 
-/// The state of a rendering that others may watch and stop.
-#[derive(Default, Debug)]
-pub struct Watch {
-    pub rows_done: AtomicUsize,
-    pub cancelled: AtomicBool,
-}
-
 /// What a ray came upon.
-enum Arrival {
+#[derive(Clone, Copy, Debug)]
+pub enum Arrival {
     Shape { shape: ShapeId, point: DVec3, direction: DVec3, travelled: f64 },
     Nothing { origin: DVec3, direction: DVec3, travelled: f64 },
 }
 
-/// Renders the rows of a region into `pixels`, three numbers a pixel. A row that is finished does not depend on
-/// the others. Stops early when it is cancelled.
-pub fn render(
-    scene: &Scene,
-    air: Option<&Atmosphere>,
-    settings: &Settings,
-    watch: &Watch,
-    pixels: &mut [f32],
-) -> Tally {
-    pixels
-        .par_chunks_exact_mut(3 * settings.columns)
-        .with_max_len(1)
-        .enumerate()
-        .map_init(
-            || Tracer::new(scene, air, settings),
-            |tracer, (row, pixels)| {
-                tracer.tally = Tally::default();
-                for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
-                    if watch.cancelled.load(Ordering::Relaxed) {
-                        return tracer.tally;
-                    }
-                    let color = tracer.pixel(settings.left + column, settings.top + row);
-                    pixel.copy_from_slice(&settings.film.develop(color));
-                }
-                watch.rows_done.fetch_add(1, Ordering::Relaxed);
-                tracer.tally
-            },
-        )
-        .reduce(Tally::default, Tally::plus)
+impl Arrival {
+    /// The shape, where it was met, and the direction of the ray there.
+    pub fn shape(&self) -> Option<(ShapeId, DVec3, DVec3)> {
+        match *self {
+            Arrival::Shape { shape, point, direction, .. } => Some((shape, point, direction)),
+            Arrival::Nothing { .. } => None,
+        }
+    }
+
+    pub fn travelled(&self) -> f64 {
+        match *self {
+            Arrival::Shape { travelled, .. } | Arrival::Nothing { travelled, .. } => travelled,
+        }
+    }
+}
+
+/// What an eye ray came upon, and the number of arcs it is made of; a straight one has none.
+#[derive(Clone, Copy, Debug)]
+pub struct Sight {
+    pub arrival: Arrival,
+    pub arcs: usize,
+}
+
+/// What a ray carries with it through the tree of rays.
+#[derive(Clone, Copy)]
+struct Errand {
+    /// 1 for the eye's ray, one more for each ray that another causes.
+    level: usize,
+    /// How many sample rays are among those before it.
+    scattered: usize,
+    /// Most of what it brings that can come through to the pixel.
+    share: f64,
+    place: Place,
 }
 
 /// One thread's means of tracing.
-struct Tracer<'a> {
+pub struct Tracer<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
+    filter: Option<&'a Filter>,
+    cancelled: &'a AtomicBool,
     path: Option<Path<'a>>,
     stack: Vec<Visit>,
-    tally: Tally,
+    /// Whether the lengths of curves are wanted, for haze or as an output.
+    measures_length: bool,
+    pub tally: Tally,
 }
 
 impl<'a> Tracer<'a> {
-    fn new(scene: &'a Scene, air: Option<&'a Atmosphere>, settings: &'a Settings) -> Self {
+    /// `filter` spreads several samples a pixel.
+    pub fn new(
+        scene: &'a Scene,
+        air: Option<&'a Atmosphere>,
+        settings: &'a Settings,
+        filter: Option<&'a Filter>,
+        cancelled: &'a AtomicBool,
+    ) -> Self {
         Self {
             scene,
             settings,
+            filter,
+            cancelled,
             path: air.map(Path::new),
             stack: Vec::with_capacity(256),
+            measures_length: scene.haze.density > 0.0 || settings.layers.contains(&Layer::Path),
             tally: Tally::default(),
         }
     }
 
-    fn pixel(&mut self, x: usize, y: usize) -> DVec3 {
-        let direction = self.scene.camera.direction(self.settings.size, x, y);
-        self.tally.eye += 1;
-        let horizontal = DVec2::new(direction.x, direction.y).length();
-        let arrival = if self.path.is_some() && horizontal >= NEARLY_VERTICAL {
-            self.tally.mirage += 1;
-            self.curve(direction, horizontal)
-        } else {
-            self.straight(Ray::new(self.scene.camera.eye, direction), 0.0)
+    /// The colour of a pixel; the extra outputs of the ray through its middle go to `layers`.
+    pub fn pixel(&mut self, x: usize, y: usize, layers: &mut [f32]) -> DVec3 {
+        let middle = |tracer: &mut Self| tracer.look(x as f64, y as f64);
+        let Some(filter) = self.filter else {
+            let sight = middle(self);
+            self.describe(&sight, layers);
+            return self.radiance(sight.arrival, Errand::of_eye(Place::of_sample(x, y, 0)));
         };
-        self.radiance(arrival)
+        if !layers.is_empty() {
+            let sight = middle(self);
+            self.describe(&sight, layers);
+        }
+        let mut sum = DVec3::ZERO;
+        for (i, [dx, dy]) in filter.samples(x, y, self.settings.samples).enumerate() {
+            if self.is_cancelled() {
+                break;
+            }
+            let sight = self.look(x as f64 + dx, y as f64 + dy);
+            sum += self.radiance(sight.arrival, Errand::of_eye(Place::of_sample(x, y, i)));
+        }
+        sum / self.settings.samples as f64
+    }
+
+    fn describe(&self, sight: &Sight, mut out: &mut [f32]) {
+        for layer in &self.settings.layers {
+            layer.write(sight, &self.scene.camera, &self.scene.shapes, out);
+            out = &mut out[layer.channels()..];
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+
+    /// Follows the eye ray through a point of the picture.
+    fn look(&mut self, x: f64, y: f64) -> Sight {
+        let camera = &self.scene.camera;
+        let ray = Ray::new(camera.eye, camera.direction(self.settings.size, x, y));
+        self.tally.eye += 1;
+        self.tally.mirage += u64::from(self.bends(&ray));
+        self.follow(ray)
+    }
+
+    /// Whether the air bends a ray, if it starts within the air's layers.
+    fn bends(&self, ray: &Ray) -> bool {
+        self.path.is_some() && horizontal_part(ray) >= NEARLY_VERTICAL
+    }
+
+    /// Follows a ray as the air bends it.
+    fn follow(&mut self, ray: Ray) -> Sight {
+        if self.bends(&ray) { self.curve(ray) } else { Sight { arrival: self.straight(ray, 0.0), arcs: 0 } }
     }
 
     /// Follows a straight ray that has come some way before its origin.
@@ -153,22 +232,32 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Follows an eye ray along its curve, and beyond the curve's end along the last tangent.
-    fn curve(&mut self, direction: DVec3, horizontal: f64) -> Arrival {
+    /// Follows a ray along its curve, and beyond the curve's end along the last tangent.
+    fn curve(&mut self, start: Ray) -> Sight {
         let scene = self.scene;
-        let eye = scene.camera.eye;
-        let slope = direction.z / horizontal;
-        let radial = DVec2::new(direction.x, direction.y) / horizontal;
-        let plane = RadialPlane { origin: eye, radial };
+        let horizontal = horizontal_part(&start);
+        let slope = start.direction.z / horizontal;
+        let radial = DVec2::new(start.direction.x, start.direction.y) / horizontal;
+        let plane = RadialPlane { origin: start.origin, radial };
         let Some(path) = self.path.as_mut() else {
-            return self.straight(Ray::new(eye, direction), 0.0);
+            return Sight { arrival: self.straight(start, 0.0), arcs: 0 };
         };
-        path.start(eye.z, slope);
+        path.start_near(start.origin.z, slope, start.from);
+        let departure = Departure { from: start.from * horizontal, leaves: start.leaves };
         let stack = &mut self.stack;
-        let solid = nearest_on_curve(&scene.shapes, &scene.solid_tree, &plane, path, f64::INFINITY, stack);
+        let solid = nearest_on_curve(
+            &scene.shapes,
+            &scene.solid_tree,
+            &plane,
+            path,
+            &departure,
+            f64::INFINITY,
+            stack,
+        );
         let limit = solid.map_or(f64::INFINITY, |hit| hit.t);
-        let light = nearest_on_curve(&scene.shapes, &scene.light_tree, &plane, path, limit, stack);
-        let measures_length = scene.haze.density > 0.0;
+        let light =
+            nearest_on_curve(&scene.shapes, &scene.light_tree, &plane, path, &departure, limit, stack);
+        let measures_length = self.measures_length;
         let length = |path: &Path, until: f64| {
             if !measures_length {
                 return 0.0;
@@ -177,37 +266,42 @@ impl<'a> Tracer<'a> {
             arcs.map(|arc| arc.length_to(arc.r1.min(until))).sum()
         };
         if let Some(Hit { t: r, shape }) = light.or(solid) {
-            let arc = path.find(r, 0).and_then(|i| path.arc(i).copied());
+            let arc = path.find(r, 0).and_then(|i| path.arc(i).map(|&arc| (i, arc)));
             self.tally.arcs += path.arcs().len() as u64;
-            if let Some(arc) = arc {
+            if let Some((i, arc)) = arc {
                 let tangent = DVec3::new(radial.x, radial.y, arc.slope_at(r));
-                return Arrival::Shape {
+                let arrival = Arrival::Shape {
                     shape,
                     point: plane.point(r, arc.height(r)),
                     direction: tangent.normalize(),
                     travelled: if measures_length { length(path, r) } else { r },
                 };
+                return Sight { arrival, arcs: i + 1 };
             }
         }
         while path.arc(path.arcs().len()).is_some() {}
-        self.tally.arcs += path.arcs().len() as u64;
+        let arcs = path.arcs().len();
+        self.tally.arcs += arcs as u64;
         let (r, z, slope) = path.tip();
         let travelled = length(path, f64::INFINITY);
         let tangent = DVec3::new(radial.x, radial.y, slope);
         let mut ray = Ray::new(plane.point(r, z), tangent.normalize());
-        // A surface where the curve ends, which rounding puts a hair before it, still counts.
-        ray.from = if r > 0.0 { -clearance(ray.origin, r) } else { 0.0 };
-        self.straight(ray, travelled)
+        if r > departure.from {
+            // A surface where the curve ends, which rounding puts a hair before it, still counts.
+            ray.from = -clearance(ray.origin, r);
+        } else {
+            ray = start;
+        }
+        Sight { arrival: self.straight(ray, travelled), arcs }
     }
 
     /// The colour that a ray brings back, with those of the mirror rays behind it: eq. 3.9.
-    fn radiance(&mut self, first: Arrival) -> DVec3 {
+    fn radiance(&mut self, first: Arrival, mut errand: Errand) -> DVec3 {
         let scene = self.scene;
         let haze = scene.haze;
         let mut sum = DVec3::ZERO;
         let mut share = 1.0;
         let mut arrival = first;
-        let mut level = 1;
         loop {
             let (shape, point, direction, travelled) = match arrival {
                 Arrival::Nothing { origin, direction, travelled } => {
@@ -218,7 +312,7 @@ impl<'a> Tracer<'a> {
             let clear = haze.transmits(travelled);
             sum += share * (1.0 - clear) * haze.color;
             share *= clear;
-            let solid = match scene.shapes.owner(shape) {
+            let solid = match scene.shapes.part(shape).owner {
                 Owner::Solid(solid) => &scene.solids[solid],
                 Owner::Light(light) => {
                     let light = &scene.lights[light];
@@ -227,6 +321,7 @@ impl<'a> Tracer<'a> {
             };
             let normals = scene.shapes.normals(shape, point, direction);
             let mut diffuse = solid.surface.color;
+            let mut normal = normals.shading;
             if !solid.textures.is_empty() {
                 let needs_uv = solid.textures.iter().any(Texture::needs_uv);
                 let uv = if needs_uv { scene.shapes.uv(shape, point) } else { None };
@@ -235,51 +330,97 @@ impl<'a> Tracer<'a> {
                     diffuse = texture.color(diffuse, &spot);
                 }
             }
-            let lit = LitPoint {
-                surface: &solid.surface,
-                diffuse,
-                normal: normals.shading,
-                toward_viewer: -direction,
-            };
+            if solid.surface.fuzz > 0.0 {
+                normal = roughened(&mut errand.place.child(FUZZ).numbers(), normal, solid.surface.fuzz);
+            }
+            let lit = LitPoint { surface: &solid.surface, diffuse, normal, toward_viewer: -direction };
             let from = clearance(point, travelled);
-            sum += share * lit.ambient(scene.ambient);
-            sum += share * self.direct(&lit, shape, point, from);
+            let start = Ray { from, leaves: Some(shape), ..Ray::new(point, direction) };
+            let brings = errand.share * share * lit.surface.diffuse * lit.diffuse.max_element();
+            sum += share
+                * if self.samples_surroundings(&errand, brings) {
+                    self.indirect(&lit, &start, &errand, brings)
+                } else {
+                    lit.ambient(scene.ambient.constant)
+                };
+            sum += share * self.direct(&lit, &start);
             share *= solid.surface.mirrors();
             if share.is_nan() || share <= 0.0 {
                 return sum;
             }
-            if level >= self.settings.depth {
-                return sum + share * scene.ambient;
+            if errand.level >= self.settings.depth {
+                return sum + share * scene.ambient.constant;
             }
-            level += 1;
+            if self.is_cancelled() {
+                return sum;
+            }
+            errand.level += 1;
+            errand.place = errand.place.child(0);
             // Eq. 3.1.
-            let n = normals.shading;
-            let mirrored = direction - 2.0 * direction.dot(n) * n;
+            let n = normal;
+            let mut mirrored = direction - 2.0 * direction.dot(n) * n;
+            let inward = mirrored.dot(normals.geometric);
+            if n != normals.shading && inward < 0.0 {
+                // A rough surface would throw it back into itself: that mirrors it out again, as if it were flat.
+                mirrored -= 2.0 * inward * normals.geometric;
+            }
             self.tally.reflected += 1;
-            let ray = Ray { from, leaves: Some(shape), ..Ray::new(point, mirrored.normalize_or_zero()) };
-            arrival = self.straight(ray, 0.0);
+            let ray = Ray { direction: mirrored.normalize_or_zero(), ..start };
+            arrival = if self.settings.refract_reflections {
+                self.follow(ray).arrival
+            } else {
+                self.straight(ray, 0.0)
+            };
         }
     }
 
+    /// Whether sample rays are sent out by a surface, of whose indirect light such a share comes through to the
+    /// pixel, or the constant stands for them.
+    fn samples_surroundings(&self, errand: &Errand, share: f64) -> bool {
+        let ambient = &self.scene.ambient;
+        ambient.samples > 0 && errand.level < ambient.depth && errand.scattered < DEEPEST && share >= FAINTEST
+    }
+
+    /// I_amb as what a number of rays into the hemisphere bring, each weighted by N.D. They see no lights. Thesis
+    /// 3.4 (3).
+    #[cold]
+    fn indirect(&mut self, lit: &LitPoint, start: &Ray, errand: &Errand, share: f64) -> DVec3 {
+        let scene = self.scene;
+        let samples = scene.ambient.samples;
+        let mut sum = DVec3::ZERO;
+        for i in 1..=samples as u64 {
+            if self.is_cancelled() {
+                break;
+            }
+            let place = errand.place.child(i);
+            let direction = into_hemisphere(&mut place.numbers(), lit.normal);
+            let cosine = lit.normal.dot(direction);
+            self.tally.ambient += 1;
+            let ray = Ray { direction, ..*start };
+            let arrival = match nearest(&scene.shapes, &scene.solid_tree, &ray, &mut self.stack) {
+                Some(Hit { t, shape }) => Arrival::Shape { shape, point: ray.at(t), direction, travelled: t },
+                None => Arrival::Nothing { origin: ray.origin, direction, travelled: 0.0 },
+            };
+            let (level, scattered) = (errand.level + 1, errand.scattered + 1);
+            let errand = Errand { level, scattered, share: share * cosine, place };
+            sum += cosine * self.radiance(arrival, errand);
+        }
+        lit.scattered(sum / samples as f64)
+    }
+
     /// The sum over the lights that the point sees.
-    fn direct(&mut self, lit: &LitPoint, shape: ShapeId, point: DVec3, from: f64) -> DVec3 {
+    fn direct(&mut self, lit: &LitPoint, start: &Ray) -> DVec3 {
         let scene = self.scene;
         let mut sum = DVec3::ZERO;
         for light in &scene.lights {
-            let Some(incident) = light.at(point) else { continue };
+            let Some(incident) = light.at(start.origin) else { continue };
             let cosine = lit.normal.dot(incident.toward);
             if cosine.is_nan() || cosine <= 0.0 {
                 continue;
             }
             if self.settings.shadows && light.shadows {
                 self.tally.shadow += 1;
-                let ray = Ray {
-                    origin: point,
-                    direction: incident.toward,
-                    from,
-                    to: incident.distance,
-                    leaves: Some(shape),
-                };
+                let ray = Ray { direction: incident.toward, to: incident.distance, ..*start };
                 if blocked(&scene.shapes, &scene.solid_tree, &ray, &mut self.stack) {
                     continue;
                 }
@@ -300,4 +441,14 @@ impl<'a> Tracer<'a> {
             }
         }
     }
+}
+
+impl Errand {
+    fn of_eye(place: Place) -> Self {
+        Self { level: 1, scattered: 0, share: 1.0, place }
+    }
+}
+
+fn horizontal_part(ray: &Ray) -> f64 {
+    DVec2::new(ray.direction.x, ray.direction.y).length()
 }

@@ -29,11 +29,18 @@ pub enum Owner {
     Light(usize),
 }
 
+/// Where a shape comes from: what it is part of, and the row of the scene's primitives that it is, or is a facet of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Part {
+    pub owner: Owner,
+    pub primitive: usize,
+}
+
 /// Facets of one primitive, which follow one another.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     first_facet: usize,
-    owner: Owner,
+    part: Part,
 }
 
 /// All shapes by kind. Facets name their corners; those with interpolated normals name three of `normals` too.
@@ -45,9 +52,9 @@ pub struct Shapes {
     /// Normals at the corners by facet, `FLAT` for none; shorter than `facets` where the rest has none.
     facet_normals: Vec<[u32; 3]>,
     runs: Vec<Run>,
-    spheres: Vec<(Sphere, Owner)>,
-    rectangles: Vec<(Rectangle, Owner)>,
-    planes: Vec<(Plane, Owner)>,
+    spheres: Vec<(Sphere, Part)>,
+    rectangles: Vec<(Rectangle, Part)>,
+    planes: Vec<(Plane, Part)>,
 }
 
 const FLAT: [u32; 3] = [u32::MAX; 3];
@@ -61,31 +68,31 @@ pub struct Normals {
 }
 
 impl Shapes {
-    pub fn push_sphere(&mut self, sphere: Sphere, owner: Owner) {
-        self.spheres.push((sphere, owner));
+    pub fn push_sphere(&mut self, sphere: Sphere, part: Part) {
+        self.spheres.push((sphere, part));
     }
 
-    pub fn push_rectangle(&mut self, rectangle: Rectangle, owner: Owner) {
-        self.rectangles.push((rectangle, owner));
+    pub fn push_rectangle(&mut self, rectangle: Rectangle, part: Part) {
+        self.rectangles.push((rectangle, part));
     }
 
     /// A plane through a point; one whose normal has no direction is left out.
-    pub fn push_plane(&mut self, point: DVec3, normal: DVec3, owner: Owner) {
+    pub fn push_plane(&mut self, point: DVec3, normal: DVec3, part: Part) {
         if let Some(normal) = normal.try_normalize() {
-            self.planes.push((Plane { point, normal }, owner));
+            self.planes.push((Plane { point, normal }, part));
         }
     }
 
     /// A single triangle, VERTEX1, VERTEX2, VERTEX3.
-    pub fn push_triangle(&mut self, corners: [DVec3; 3], owner: Owner) {
+    pub fn push_triangle(&mut self, corners: [DVec3; 3], part: Part) {
         let first = self.vertices.len() as u32;
         self.vertices.extend(corners);
-        self.push_facets(std::iter::once(([first, first + 1, first + 2], None)), owner);
+        self.push_facets(std::iter::once(([first, first + 1, first + 2], None)), part);
     }
 
     /// Facets by their corners in `vertices`, and the corners' normals in `normals`.
-    pub fn push_facets(&mut self, facets: impl Iterator<Item = ([u32; 3], Option<[u32; 3]>)>, owner: Owner) {
-        self.runs.push(Run { first_facet: self.facets.len(), owner });
+    pub fn push_facets(&mut self, facets: impl Iterator<Item = ([u32; 3], Option<[u32; 3]>)>, part: Part) {
+        self.runs.push(Run { first_facet: self.facets.len(), part });
         for (corners, normals) in facets {
             if let Some(normals) = normals {
                 self.facet_normals.resize(self.facets.len(), FLAT);
@@ -124,12 +131,12 @@ impl Shapes {
         self.facets[row]
     }
 
-    pub fn owner(&self, shape: ShapeId) -> Owner {
+    pub fn part(&self, shape: ShapeId) -> Part {
         let row = shape.row();
         match shape.kind() {
             ShapeKind::Facet => {
                 let after = self.runs.partition_point(|run| run.first_facet <= row);
-                self.runs[after - 1].owner
+                self.runs[after - 1].part
             }
             ShapeKind::Sphere => self.spheres[row].1,
             ShapeKind::Rectangle => self.rectangles[row].1,
@@ -142,8 +149,8 @@ impl Shapes {
     pub fn trees(&self) -> (Bvh, Bvh) {
         let mut solids = Gathering::default();
         let mut lights = Gathering::default();
-        let mut gather = |owner, bounds: Option<(DVec3, DVec3)>, shape, corners| {
-            let into = if matches!(owner, Owner::Solid(_)) { &mut solids } else { &mut lights };
+        let mut gather = |part: Part, bounds: Option<(DVec3, DVec3)>, shape, corners| {
+            let into = if matches!(part.owner, Owner::Solid(_)) { &mut solids } else { &mut lights };
             into.add(bounds, Item { shape, corners });
         };
         for (i, run) in self.runs.iter().enumerate() {
@@ -153,28 +160,28 @@ impl Shapes {
                 let area = (a - b).cross(c - b).length_squared();
                 if area > 0.0 && area < f64::INFINITY {
                     let bounds = (a.min(b).min(c), a.max(b).max(c));
-                    gather(run.owner, Some(bounds), ShapeId::new(ShapeKind::Facet, row), self.facets[row]);
+                    gather(run.part, Some(bounds), ShapeId::new(ShapeKind::Facet, row), self.facets[row]);
                 }
             }
         }
-        for (row, (sphere, owner)) in self.spheres.iter().enumerate() {
+        for (row, (sphere, part)) in self.spheres.iter().enumerate() {
             if sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius < f64::INFINITY {
                 let reach = DVec3::splat(sphere.radius);
                 let bounds = (sphere.center - reach, sphere.center + reach);
-                gather(*owner, Some(bounds), ShapeId::new(ShapeKind::Sphere, row), [0; 3]);
+                gather(*part, Some(bounds), ShapeId::new(ShapeKind::Sphere, row), [0; 3]);
             }
         }
-        for (row, (rectangle, owner)) in self.rectangles.iter().enumerate() {
+        for (row, (rectangle, part)) in self.rectangles.iter().enumerate() {
             let area = rectangle.normal().length_squared();
             if area > 0.0 && area < f64::INFINITY && rectangle.point.is_finite() {
                 let [a, b, c, d] = rectangle.corners();
                 let bounds = (a.min(b).min(c).min(d), a.max(b).max(c).max(d));
-                gather(*owner, Some(bounds), ShapeId::new(ShapeKind::Rectangle, row), [0; 3]);
+                gather(*part, Some(bounds), ShapeId::new(ShapeKind::Rectangle, row), [0; 3]);
             }
         }
-        for (row, (plane, owner)) in self.planes.iter().enumerate() {
+        for (row, (plane, part)) in self.planes.iter().enumerate() {
             if plane.point.is_finite() {
-                gather(*owner, None, ShapeId::new(ShapeKind::Plane, row), [0; 3]);
+                gather(*part, None, ShapeId::new(ShapeKind::Plane, row), [0; 3]);
             }
         }
         (solids.tree(), lights.tree())
@@ -254,13 +261,23 @@ pub enum Background {
     Sky(Sky),
 }
 
+/// AMBIENT: indirect light, constant, or sampled by rays all around. Thesis 3.4 (3).
+#[derive(Clone, Copy, Debug)]
+pub struct Ambient {
+    /// The constant: intensity times colour.
+    pub constant: DVec3,
+    /// How many rays a surface sends out.
+    pub samples: usize,
+    /// Surfaces send them out that were met by rays of a level below this; the eye's is 1.
+    pub depth: usize,
+}
+
 /// Everything a picture is made from, but for the atmosphere.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub camera: Camera,
     pub background: Background,
-    /// Constant ambient light: intensity times colour.
-    pub ambient: DVec3,
+    pub ambient: Ambient,
     pub haze: Haze,
     pub lights: Vec<Light>,
     pub solids: Vec<Solid>,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use wide::{CmpLe, f32x4};
 
 use crate::bvh::{Boxes, Bvh, Probe, Slab, Visit, at_least};
-use crate::optics::crossing::{meet_circle, meet_line, meet_segment};
+use crate::optics::crossing::{Range, meet_circle, meet_line, meet_segment};
 use crate::optics::path::Path;
 use crate::ray::{Hit, Ray, ShapeId, ShapeKind};
 use crate::scene::Shapes;
@@ -161,12 +161,22 @@ pub fn blocked(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -
     probe.found
 }
 
+/// How a curve starts.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Departure {
+    /// Hits at this horizontal distance or nearer do not count.
+    pub from: f64,
+    /// The shape it starts on, if any. It may come back to it.
+    pub leaves: Option<ShapeId>,
+}
+
 /// Looks for the nearest shape along a curve in a radial plane. A box is entered where the plane's two horizontal
 /// slabs say, if the curve passes the box's heights in between.
 struct Curved<'a, 'b, 'c> {
     shapes: &'a Shapes,
     plane: RadialPlane,
     path: &'b mut Path<'c>,
+    departure: Departure,
     slabs: [Slab; 2],
     to: f64,
     limit: f32,
@@ -178,21 +188,27 @@ struct Curved<'a, 'b, 'c> {
 impl Curved<'_, '_, '_> {
     fn try_shape(&mut self, shape: ShapeId, corners: [u32; 3]) {
         let row = shape.row();
+        let range = Range {
+            from: self.departure.from,
+            to: self.to,
+            leaves: self.departure.leaves == Some(shape),
+            hint: self.arc,
+        };
         let met = match shape.kind() {
             ShapeKind::Facet => cut(&self.plane, &self.shapes.corners(corners))
-                .and_then(|segment| meet_segment(self.path, &segment, self.to, self.arc)),
+                .and_then(|segment| meet_segment(self.path, &segment, &range)),
             ShapeKind::Rectangle => self
                 .shapes
                 .rectangle(row)
                 .cut(&self.plane)
-                .and_then(|segment| meet_segment(self.path, &segment, self.to, self.arc)),
+                .and_then(|segment| meet_segment(self.path, &segment, &range)),
             ShapeKind::Sphere => self
                 .shapes
                 .sphere(row)
                 .cut(&self.plane)
-                .and_then(|circle| meet_circle(self.path, &circle, self.to, self.arc)),
+                .and_then(|circle| meet_circle(self.path, &circle, &range)),
             ShapeKind::Plane => {
-                self.shapes.plane(row).cut(&self.plane).and_then(|line| meet_line(self.path, &line, self.to))
+                self.shapes.plane(row).cut(&self.plane).and_then(|line| meet_line(self.path, &line, &range))
             }
         };
         if let Some(r) = met {
@@ -237,6 +253,7 @@ pub fn nearest_on_curve(
     tree: &Bvh,
     plane: &RadialPlane,
     path: &mut Path,
+    departure: &Departure,
     limit: f64,
     stack: &mut Vec<Visit>,
 ) -> Option<Hit> {
@@ -248,6 +265,7 @@ pub fn nearest_on_curve(
         shapes,
         plane: *plane,
         path,
+        departure: *departure,
         slabs: [tree.slab(0, origin.x, x), tree.slab(1, origin.y, y)],
         to: limit,
         limit: at_least(limit),
@@ -271,12 +289,12 @@ pub fn clearance(point: DVec3, travelled: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::optics::atmosphere::{Atmosphere, Layer};
-    use crate::scene::Owner;
+    use crate::scene::{Owner, Part};
     use crate::shape::rectangle::Rectangle;
     use crate::shape::sphere::Sphere;
     use proptest::prelude::*;
 
-    const OWNER: Owner = Owner::Solid(0);
+    const PART: Part = Part { owner: Owner::Solid(0), primitive: 0 };
 
     fn point(reach: f64) -> impl Strategy<Value = DVec3> {
         (-reach..reach, -reach..reach, 0.0..8.0f64).prop_map(|(x, y, z)| DVec3::new(x, y, z))
@@ -298,16 +316,16 @@ mod tests {
             .prop_map(|(triangles, rectangles, spheres, planes)| {
                 let mut shapes = Shapes::default();
                 for (p, u, v) in triangles {
-                    shapes.push_triangle([p + v, p, p + u], OWNER);
+                    shapes.push_triangle([p + v, p, p + u], PART);
                 }
                 for (point, u, v) in rectangles {
-                    shapes.push_rectangle(Rectangle { point, u, v }, OWNER);
+                    shapes.push_rectangle(Rectangle { point, u, v }, PART);
                 }
                 for (center, radius) in spheres {
-                    shapes.push_sphere(Sphere { center, radius, pole: DVec3::Z, equator: DVec3::X }, OWNER);
+                    shapes.push_sphere(Sphere { center, radius, pole: DVec3::Z, equator: DVec3::X }, PART);
                 }
                 for (point, u, v) in planes {
-                    shapes.push_plane(point, u.cross(v), OWNER);
+                    shapes.push_plane(point, u.cross(v), PART);
                 }
                 shapes
             })
@@ -365,7 +383,7 @@ mod tests {
             path.start(eye.z, slope);
             let plane = RadialPlane { origin: eye, radial: DVec2::from_angle(toward) };
             let (tree, _) = shapes.trees();
-            let found = nearest_on_curve(&shapes, &tree, &plane, &mut path, f64::INFINITY, &mut Vec::new());
+            let found = nearest_on_curve(&shapes, &tree, &plane, &mut path, &Departure::default(), f64::INFINITY, &mut Vec::new());
             while path.arc(path.arcs().len()).is_some() {}
             // Chords of at most 0.2 m lie within 3e-6 m of the curve.
             let all = each(&shapes);
@@ -393,7 +411,7 @@ mod tests {
                         path.start(eye.z + nudge, slope);
                         let mut moved = plane;
                         moved.origin.z += nudge;
-                        nearest_on_curve(&shapes, &tree, &moved, &mut path, f64::INFINITY, &mut Vec::new())
+                        nearest_on_curve(&shapes, &tree, &moved, &mut path, &Departure::default(), f64::INFINITY, &mut Vec::new())
                             .map(|hit| hit.t)
                     };
                     let around = [near(1e-4), near(-1e-4)];

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -39,7 +40,19 @@ def test_a_compiled_scene_and_its_statistics(compiled, tmp_path):
     assert stats["arcs"] > 640
     assert stats["peak_memory"] > 1_000_000
     assert (stats["width"], stats["height"], stats["threads"]) == (32, 20, 2)
-    assert OpenImageIO.ImageBuf(str(tmp_path / "a.png")).spec().getattribute("ImageDescription") == "merman.m3ir"
+
+
+@pytest.mark.parametrize("suffix", ["png", "tif", "exr"])
+def test_a_picture_says_what_it_is(compiled, tmp_path, suffix):
+    picture = tmp_path / f"a.{suffix}"
+    assert command(compiled, "-o", picture, "--straight", "--rows", "3:9").returncode == 0
+    read = OpenImageIO.ImageBuf(str(picture)).spec().getattribute
+    assert read("Software").startswith("m3d-render ")
+    said = "merman.m3ir; mirage off; from 1 0 2.1; to 0 0 2.1001; fov 1.5; tilt 0; size 32 20; region 3 0 9 31"
+    assert read("ImageDescription") == said
+    if suffix != "tif":
+        assert read("mirage3d:mirage") == "off"
+        assert read("mirage3d:region") == "3 0 9 31"
 
 
 def test_options_change_the_picture(compiled, tmp_path):
@@ -119,21 +132,42 @@ def test_usage_and_files_are_status_2(tmp_path, arguments, says):
     assert sorted(entry.name for entry in tmp_path.iterdir()) == before
 
 
-def test_an_interrupt_is_status_130_and_leaves_the_old_picture(compiled, tmp_path):
-    picture = tmp_path / "a.png"
-    picture.write_text("old")
-    arguments = [compiled, "-o", picture, "--width", "20000", "--height", "20000"]
+def interrupted(*arguments, after):
+    """A command that gets an interrupt after so many seconds: its status, what it said, and how long it took to end."""
     process = subprocess.Popen(
         [sys.executable, "-m", "m3d_render.cli", *map(str, arguments)], stderr=subprocess.PIPE, text=True
     )
-    time.sleep(3)
+    time.sleep(after)
     process.send_signal(signal.SIGINT)
     started = time.monotonic()
-    _, said = process.communicate(timeout=30)
-    assert time.monotonic() - started < 5
-    assert process.returncode == 130
-    assert "interrupted" in said
+    _, said = process.communicate(timeout=60)
     assert "Traceback" not in said
+    return process.returncode, said, time.monotonic() - started
+
+
+def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_path):
+    # Slow by its many samples, so that some of its rows are finished after any start-up time.
+    options = ["--width", "400", "--height", "2000", "--samples"]
+    whole, part = tmp_path / "whole.exr", tmp_path / "part.exr"
+    status, said, seconds = interrupted(compiled, "-o", part, *options, "64", after=4)
+    assert (status, seconds < 5) == (130, True), said
+    rows = re.search(r"part\.exr holds rows 0 to (\d+); rows from (\d+) on", said)
+    assert rows, said
+    done = int(rows[2])
+    assert command(compiled, "-o", whole, *options, "64", "--rows", f"0:{done - 1}").returncode == 0
+    pictures = [OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT) for path in (whole, part)]
+    np.testing.assert_array_equal(*pictures)
+    assert pictures[0].shape == (done, 400, 3)
+
+
+def test_an_interrupt_before_a_row_is_finished_leaves_the_old_picture(compiled, tmp_path):
+    picture = tmp_path / "a.png"
+    picture.write_text("old")
+    # A single row takes an hour.
+    size = ["--width", "60000", "--height", "2", "--samples", "65536"]
+    status, said, seconds = interrupted(compiled, "-o", picture, *size, after=3)
+    assert (status, seconds < 5) == (130, True), said
+    assert "no row was finished" in said
     assert picture.read_text() == "old"
 
 

@@ -80,17 +80,43 @@ impl Quadratic {
     }
 }
 
-/// Distance at which the curve first meets a line, not at the eye and not beyond `limit`.
-pub fn meet_line(path: &mut Path, line: &Line, limit: f64) -> Option<f64> {
+/// Which meetings of a curve with a shape count.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// Those beyond this distance,
+    pub from: f64,
+    /// and not beyond this one.
+    pub to: f64,
+    /// Whether the curve starts on the shape: what counts is where it comes back.
+    pub leaves: bool,
+    /// An arc near the shape.
+    pub hint: usize,
+}
+
+impl Range {
+    fn holds(&self, r: f64) -> bool {
+        self.from < r && r <= self.to
+    }
+}
+
+#[cfg(test)]
+impl Range {
+    fn whole(hint: usize) -> Self {
+        Self { from: 0.0, to: f64::INFINITY, leaves: false, hint }
+    }
+}
+
+/// Distance at which the curve first meets a line.
+pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<f64> {
     let side = |r: f64, z: f64| line.a * r + line.c * z + line.d;
     let mut i = 0;
     while let Some(&arc) = path.arc(i) {
-        if arc.r0 > limit {
+        if arc.r0 > range.to {
             return None;
         }
         let (start, end) = (side(arc.r0, arc.z0), side(arc.r1, arc.z1));
         // A curve that starts on the line leaves it, and may come back.
-        let leaves = i == 0 && start == 0.0;
+        let leaves = i == 0 && (range.leaves || start.abs() <= range.from);
         let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
         let width = arc.r1 - arc.r0;
         let root = if leaves {
@@ -101,36 +127,50 @@ pub fn meet_line(path: &mut Path, line: &Line, limit: f64) -> Option<f64> {
         };
         if let Some(x) = root {
             let r = arc.r0 + x;
-            return (r <= limit).then_some(r);
+            return (r <= range.to).then_some(r);
         }
         i += 1;
     }
     None
 }
 
-/// Distance at which the curve first meets a segment, not beyond `limit`. `hint` is an arc near the segment.
+/// Distance at which the curve first meets a segment.
 #[inline]
-pub fn meet_segment(path: &mut Path, segment: &Segment, limit: f64, hint: usize) -> Option<f64> {
+pub fn meet_segment(path: &mut Path, segment: &Segment, range: &Range) -> Option<f64> {
     let (start, step) = (segment.start, segment.end - segment.start);
-    if segment.end.x < 0.0 || start.x > limit {
+    if segment.end.x < 0.0 || start.x > range.to {
         return None;
     }
-    let mut i = path.find(start.x.max(0.0), hint)?;
+    let mut i = path.find(start.x.max(0.0), range.hint)?;
     while let Some(&arc) = path.arc(i) {
-        if arc.r0 > segment.end.x || arc.r0 > limit {
+        if arc.r0 > segment.end.x || arc.r0 > range.to {
             return None;
         }
-        if let Some(r) = arc_meets_segment(&arc, segment, start, step) {
-            return (0.0 < r && r <= limit).then_some(r);
+        let uncertainty = if arc.r0 > 0.0 {
+            -1.0
+        } else if range.leaves {
+            f64::INFINITY
+        } else {
+            range.from
+        };
+        if let Some(r) = arc_meets_segment(&arc, segment, start, step, uncertainty) {
+            return range.holds(r).then_some(r);
         }
         i += 1;
     }
     None
 }
 
-/// Along the segment, (r, z) = start + s step, so that an upright one is no special case.
+/// Along the segment, (r, z) = start + s step, so that an upright one is no special case. An arc whose start lies on
+/// the segment, as well as it is known, leaves it, and may come back.
 #[inline]
-fn arc_meets_segment(arc: &Arc, segment: &Segment, start: glam::DVec2, step: glam::DVec2) -> Option<f64> {
+fn arc_meets_segment(
+    arc: &Arc,
+    segment: &Segment,
+    start: glam::DVec2,
+    step: glam::DVec2,
+    uncertainty: f64,
+) -> Option<f64> {
     let (lower, upper) = if step.y >= 0.0 { (start.y, segment.end.y) } else { (segment.end.y, start.y) };
     if arc.low > upper || arc.high < lower {
         return None;
@@ -154,15 +194,20 @@ fn arc_meets_segment(arc: &Arc, segment: &Segment, start: glam::DVec2, step: gla
         b: (2.0 * arc.half_bend * x + arc.slope) * step.x - step.y,
         c: (arc.half_bend * x + arc.slope) * x + arc.z0 - start.y,
     };
-    let s = q.first_root(from, to, value_from, value_to)?;
+    let s = if starts_before && value_from.abs() <= uncertainty {
+        // The roots add up to -b/a.
+        Some(-q.b / q.a - from).filter(|&again| from < again && again <= to)?
+    } else {
+        q.first_root(from, to, value_from, value_to)?
+    };
     Some((start.x + s * step.x).clamp(arc.r0, arc.r1))
 }
 
-/// Distance at which the curve first enters a circle, or leaves the one it starts in, not beyond `limit`.
-pub fn meet_circle(path: &mut Path, circle: &Circle, limit: f64, hint: usize) -> Option<f64> {
+/// Distance at which the curve first enters a circle, or leaves the one it starts in.
+pub fn meet_circle(path: &mut Path, circle: &Circle, range: &Range) -> Option<f64> {
     let (center, radius) = (circle.center, circle.radius);
     let (near, far) = (center.x - radius, center.x + radius);
-    if far < 0.0 || near > limit {
+    if far < 0.0 || near > range.to {
         return None;
     }
     // Positive outside.
@@ -170,17 +215,24 @@ pub fn meet_circle(path: &mut Path, circle: &Circle, limit: f64, hint: usize) ->
         let (x, y) = (r - center.x, z - center.y);
         x * x + y * y - radius * radius
     };
-    let eye = path.arc(0).map(|arc| side(arc.r0, arc.z0))?;
-    let outside = eye > 0.0;
-    let mut i = path.find(near.max(0.0), hint)?;
+    let &first = path.arc(0)?;
+    let outside = if range.leaves {
+        Quartic::new(&first, circle).coefficients[1] > 0.0
+    } else {
+        side(first.r0, first.z0) > 0.0
+    };
+    let mut i = path.find(near.max(0.0), range.hint)?;
     while let Some(&arc) = path.arc(i) {
         let (from, to) = (arc.r0.max(near), arc.r1.min(far));
-        if from > to || from > limit {
+        if from > to || from > range.to {
             return None;
         }
         let high_enough = arc.high >= center.y - radius;
         if (high_enough && arc.low <= center.y + radius) || !outside {
-            let quartic = Quartic::new(&arc, circle);
+            let mut quartic = Quartic::new(&arc, circle);
+            if i == 0 && range.leaves {
+                quartic = quartic.without_start();
+            }
             let found = if outside {
                 quartic.first_at_most_zero(from - arc.r0, to - arc.r0)
             } else {
@@ -188,7 +240,7 @@ pub fn meet_circle(path: &mut Path, circle: &Circle, limit: f64, hint: usize) ->
             };
             if let Some(x) = found {
                 let r = arc.r0 + x;
-                return (0.0 < r && r <= limit).then_some(r);
+                return range.holds(r).then_some(r);
             }
         }
         i += 1;
@@ -215,6 +267,12 @@ impl Quartic {
                 a * a,
             ],
         }
+    }
+
+    /// For a curve that starts on the circle: divided by x, so that the start is no root.
+    fn without_start(self) -> Self {
+        let [_, b, c, d, e] = self.coefficients;
+        Self { coefficients: [b, c, d, e, 0.0] }
     }
 
     fn negated(mut self) -> Self {
@@ -373,7 +431,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let line = Line { a, c: 1.0, d: -height };
-            let exact = meet_line(&mut path, &line, f64::INFINITY);
+            let exact = meet_line(&mut path, &line, &Range::whole(0));
             let expected = sampled(&mut path, |r, z| line.a * r + z + line.d);
             if let (Some(r), None) = (exact, expected) {
                 // A graze that sampling steps over must at least be a meeting.
@@ -393,7 +451,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let segment = Segment { start: DVec2::new(r, z), end: DVec2::new(r + dr, z + dz) };
-            let exact = meet_segment(&mut path, &segment, f64::INFINITY, hint);
+            let exact = meet_segment(&mut path, &segment, &Range::whole(hint));
             if let Some(t) = exact {
                 let arc = *path.arcs().iter().find(|arc| arc.r0 <= t && t <= arc.r1).unwrap();
                 prop_assert!(r - 1e-9 <= t && t <= r + dr + 1e-9);
@@ -425,7 +483,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let circle = Circle { center: DVec2::new(r, z), radius };
-            let exact = meet_circle(&mut path, &circle, f64::INFINITY, hint);
+            let exact = meet_circle(&mut path, &circle, &Range::whole(hint));
             let expected = sampled(&mut path, |x, y| (x - r).hypot(y - z) - radius);
             if let (Some(t), None) = (exact, expected) {
                 let arc = path.arcs().iter().find(|arc| arc.r0 <= t && t <= arc.r1).unwrap();
@@ -461,7 +519,7 @@ mod tests {
         let ground = Line { a: 0.0, c: 1.0, d: 0.0 };
         for i in 1..1000 {
             path.start(2.1, -f64::from(i) * 1e-4 - 6e-3);
-            let r = meet_line(&mut path, &ground, f64::INFINITY);
+            let r = meet_line(&mut path, &ground, &Range::whole(0));
             assert_eq!(r.is_some(), path.tip().1 == 0.0, "slope {i}");
         }
     }

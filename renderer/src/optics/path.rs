@@ -175,6 +175,14 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// Begins a curve at a height that is known only so well: within that of the lowest or highest boundary it
+    /// counts as on it, not as outside of the air.
+    pub fn start_near(&mut self, z: f64, slope: f64, uncertainty: f64) {
+        let ends = [self.air.layers.first().map(|l| l.bottom), self.air.layers.last().map(|l| l.top)];
+        let snapped = ends.into_iter().flatten().find(|end| (z - end).abs() <= uncertainty);
+        self.start(snapped.unwrap_or(z), slope);
+    }
+
     /// Arcs made so far.
     pub fn arcs(&self) -> &[Arc] {
         &self.arcs

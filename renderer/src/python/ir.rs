@@ -13,7 +13,7 @@ use pyo3::types::PyAnyMethods;
 
 use crate::camera::Camera;
 use crate::optics::atmosphere::{Atmosphere, Limits};
-use crate::scene::{Background, Owner, Scene, Shapes, Solid};
+use crate::scene::{Ambient, Background, Owner, Part, Scene, Shapes, Solid};
 use crate::shade::haze::Haze;
 use crate::shade::highlight::Gloss;
 use crate::shade::illumination::{Light, Source, Surface};
@@ -104,6 +104,12 @@ fn number(of: &Bound<PyAny>, name: &str) -> PyResult<f64> {
     of.getattr(name)?.extract()
 }
 
+/// A whole number; one below 0 counts as 0.
+fn count(of: &Bound<PyAny>, name: &str) -> PyResult<usize> {
+    let value: i64 = of.getattr(name)?.extract()?;
+    Ok(usize::try_from(value).unwrap_or(0))
+}
+
 /// The whole scene but the atmosphere.
 pub fn scene(ir: &Bound<PyAny>) -> PyResult<Scene> {
     let said = ir.getattr("scene")?;
@@ -129,7 +135,11 @@ pub fn scene(ir: &Bound<PyAny>) -> PyResult<Scene> {
     Ok(Scene {
         camera,
         background,
-        ambient: number(&ambient, "intensity")? * vector(&ambient, "color")?,
+        ambient: Ambient {
+            constant: number(&ambient, "intensity")? * vector(&ambient, "color")?,
+            samples: count(&ambient, "samples")?,
+            depth: count(&ambient, "depth")?,
+        },
         haze,
         lights,
         solids,
@@ -205,6 +215,7 @@ fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
     let (ambient, diffuse, specular) = (plain("ambient")?, plain("diffuse")?, plain("specular")?);
     let (refindex, rough, hard) = (plain("refindex")?, plain("rough")?, plain("hard")?);
     let (metallic, fresnel, beckmann) = (plain("metallic")?, plain("fresnel")?, plain("beckmann")?);
+    let fuzz = plain("fuzz")?;
     let first: Vec<i32> = table.plain("first_texture")?;
     let count: Vec<i32> = table.plain("texture_count")?;
     (0..object_inverse.len())
@@ -217,6 +228,7 @@ fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
                     diffuse: *table.entry(&diffuse, i)?,
                     specular: *table.entry(&specular, i)?,
                     hard: *table.entry(&hard, i)?,
+                    fuzz: *table.entry(&fuzz, i)?,
                     gloss: Gloss {
                         refindex: *table.entry(&refindex, i)?,
                         rough: *table.entry(&rough, i)?,
@@ -359,26 +371,27 @@ fn shapes(ir: &Bound<PyAny>, solids: usize, lights: usize) -> PyResult<Shapes> {
             }
             _ => return Err(damaged(format!("primitive {i} belongs to no solid and no light"))),
         };
+        let part = Part { owner, primitive: i };
         let row = usize::try_from(*table.entry(&row, i)?)
             .map_err(|_| damaged(format!("primitive {i} has no row")))?;
         match kind {
             0 => {
                 let sphere = spheres.get(row).ok_or_else(|| damaged(format!("spheres has no row {row}")))?;
-                shapes.push_sphere(*sphere, owner);
+                shapes.push_sphere(*sphere, part);
             }
             1 => {
                 let (point, u, v) = planes.row(row)?;
-                shapes.push_plane(point, u.cross(v), owner);
+                shapes.push_plane(point, u.cross(v), part);
             }
             2 => {
                 let (point, u, v) = triangles.row(row)?;
-                shapes.push_triangle([point + v, point, point + u], owner);
+                shapes.push_triangle([point + v, point, point + u], part);
             }
             3 => {
                 let (point, u, v) = rectangles.row(row)?;
-                shapes.push_rectangle(Rectangle { point, u, v }, owner);
+                shapes.push_rectangle(Rectangle { point, u, v }, part);
             }
-            4 | 5 => meshes.push(row, owner, &mut shapes)?,
+            4 | 5 => meshes.push(row, part, &mut shapes)?,
             other => return Err(damaged(format!("primitive {i} is of an unknown kind, {other}"))),
         }
         if shapes.count() > crate::ray::ShapeId::MOST {
@@ -412,7 +425,7 @@ impl<'py> Meshes<'py> {
         })
     }
 
-    fn push(&self, row: usize, owner: Owner, shapes: &mut Shapes) -> PyResult<()> {
+    fn push(&self, row: usize, part: Part, shapes: &mut Shapes) -> PyResult<()> {
         let first = *self.table.entry(&self.first_facet, row)?;
         let count = *self.table.entry(&self.facet_count, row)?;
         let used = rows("facets", first, count, self.corners.len().min(self.normals.len()))?;
@@ -429,7 +442,7 @@ impl<'py> Meshes<'py> {
             let name = |names: [i32; 3]| names.map(|name| name as u32);
             (name(self.corners[i]), smooth.then(|| name(self.normals[i])))
         });
-        shapes.push_facets(facets, owner);
+        shapes.push_facets(facets, part);
         Ok(())
     }
 }
@@ -440,9 +453,8 @@ pub fn atmosphere(ir: &Bound<PyAny>, finer: usize) -> PyResult<Option<Atmosphere
     if mirage.is_none() {
         return Ok(None);
     }
-    let segments: i64 = mirage.getattr("segments")?.extract()?;
     let limits = Limits {
-        segments: usize::try_from(segments).unwrap_or(0),
+        segments: count(&mirage, "segments")?,
         distance: number(&mirage, "distance")?,
         elevation: number(&mirage, "elevation")?,
     };

@@ -4,8 +4,9 @@
 mod ir;
 
 use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -14,19 +15,78 @@ use pyo3::types::PyDict;
 
 use crate::camera::Size;
 use crate::film::Film;
+use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
 use crate::optics::path::{End, Path};
-use crate::render::{Settings, Tally, Watch, render};
+use crate::render::{Settings, Tally};
 use crate::scene;
+use crate::schedule::{Canvas, Tile, Watch, render};
 
 /// How often the waiting thread looks for an interrupt.
 const LOOK: Duration = Duration::from_millis(40);
 
-/// Pixels, and what was traced for them by kind.
-type Rendered<'py> = (Bound<'py, PyArray3<f32>>, Bound<'py, PyDict>);
-
 /// Ray paths: why each ended, where, of how many arcs, and its heights.
 type Paths<'py> = (Vec<&'static str>, Bound<'py, PyArray2<f64>>, Vec<usize>, Bound<'py, PyArray2<f64>>);
+
+/// `m3d_render.rendering.Request`: what is asked of a picture.
+#[derive(FromPyObject)]
+struct Request {
+    width: usize,
+    height: usize,
+    left: usize,
+    top: usize,
+    columns: usize,
+    rows: usize,
+    straight: bool,
+    shadows: bool,
+    depth: usize,
+    log_scale: f64,
+    normalize: bool,
+    samples: usize,
+    refract_reflections: bool,
+    layers: Vec<String>,
+    threads: usize,
+}
+
+impl Request {
+    fn settings(&self) -> PyResult<Settings> {
+        let Self { width, height, left, top, columns, rows, .. } = *self;
+        let within = |start: usize, count: usize, all: usize| {
+            count > 0 && start.checked_add(count).is_some_and(|end| end <= all)
+        };
+        if !within(left, columns, width) || !within(top, rows, height) {
+            return Err(PyValueError::new_err("the region does not lie within the picture"));
+        }
+        let layer = |name: &String| {
+            Layer::named(name).ok_or_else(|| PyValueError::new_err(format!("there is no layer {name}")))
+        };
+        Ok(Settings {
+            size: Size { width, height },
+            left,
+            top,
+            columns,
+            rows,
+            shadows: self.shadows,
+            depth: self.depth,
+            samples: self.samples.max(1),
+            refract_reflections: self.refract_reflections,
+            layers: self.layers.iter().map(layer).collect::<PyResult<_>>()?,
+            film: Film { log_scale: self.log_scale, normalize: self.normalize },
+        })
+    }
+}
+
+/// What became of a request.
+#[pyclass(frozen, get_all)]
+struct Outcome {
+    /// (rows, columns, 3)
+    pixels: Py<PyArray3<f32>>,
+    /// (rows, columns, channels of all layers)
+    layers: Py<PyArray3<f32>>,
+    /// How many rows from the top are finished: all, unless `cancel` returned true.
+    finished_rows: usize,
+    counts: Py<PyDict>,
+}
 
 /// A scene ready to be rendered.
 #[pyclass(frozen)]
@@ -49,61 +109,44 @@ impl Scene {
         Some((air.bottom(), air.profile_top, self.scene.camera.eye.z))
     }
 
-    /// The pixels of a region as an array (rows, columns, 3), and what was traced for them; None if `cancel`
-    /// returned true. Both callbacks are called from the calling thread.
-    #[pyo3(signature = (*, width, height, left, top, columns, rows, straight, shadows, depth, log_scale, threads, progress, cancel))]
-    #[allow(clippy::too_many_arguments)]
-    fn render<'py>(
+    /// The pixels of a region. Callbacks, None or callable, are called from the calling thread:
+    /// `progress(rows, all_rows)`, `cancel()`, which ends the work by returning true, and
+    /// `tiles(top, step, pixels)` for each part of the picture that has become known.
+    fn render(
         &self,
-        py: Python<'py>,
-        width: usize,
-        height: usize,
-        left: usize,
-        top: usize,
-        columns: usize,
-        rows: usize,
-        straight: bool,
-        shadows: bool,
-        depth: usize,
-        log_scale: f64,
-        threads: usize,
-        progress: Option<Bound<'py, PyAny>>,
-        cancel: Option<Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Rendered<'py>>> {
-        let settings = Settings {
-            size: Size { width, height },
-            left,
-            top,
-            columns,
-            rows,
-            shadows,
-            depth,
-            film: Film { log_scale },
-        };
-        if columns == 0 || rows == 0 || left + columns > width || top + rows > height {
-            return Err(PyValueError::new_err("the region does not lie within the picture"));
-        }
-        let air = if straight { None } else { self.air.as_ref() };
+        py: Python,
+        request: Request,
+        progress: Option<Bound<PyAny>>,
+        cancel: Option<Bound<PyAny>>,
+        tiles: Option<Bound<PyAny>>,
+    ) -> PyResult<Outcome> {
+        let settings = request.settings()?;
+        let (columns, rows, channels) = (settings.columns, settings.rows, settings.channels());
+        let air = if request.straight { None } else { self.air.as_ref() };
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
+            .num_threads(request.threads)
             .build()
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let mut pixels = zeros(columns, rows)?;
-        let watch = Watch::default();
+        let mut pixels = zeros(&[rows, columns, 3])?;
+        let mut layers = zeros(&[rows, columns, channels])?;
+        let watch = Watch::new(rows);
         let finished = Bell::default();
+        let (sender, receiver) = channel();
+        let sender = tiles.is_some().then_some(sender);
+        let mut audience = Audience { settings: &settings, progress, cancel, tiles, told: 0, largest: 0.0 };
         let (tally, stopped) = std::thread::scope(|scope| {
-            let (pixels, watch, settings) = (&mut pixels, &watch, &settings);
+            let (settings, watch) = (&settings, &watch);
+            let canvas = Canvas { pixels: &mut pixels, layers: &mut layers };
             let work = scope.spawn(|| {
                 let _rings = finished.at_end();
-                pool.install(|| render(&self.scene, air, settings, watch, pixels))
+                pool.install(|| render(&self.scene, air, settings, watch, canvas, sender))
             });
             let mut stopped = Ok(false);
-            let mut told = usize::MAX;
             while !py.detach(|| finished.wait(LOOK)) {
                 if watch.cancelled.load(Ordering::Relaxed) {
                     continue;
                 }
-                stopped = look_around(py, watch, rows, &mut told, progress.as_ref(), cancel.as_ref());
+                stopped = audience.is_told(py, watch, &receiver);
                 if !matches!(stopped, Ok(false)) {
                     watch.cancelled.store(true, Ordering::Relaxed);
                 }
@@ -114,46 +157,87 @@ impl Scene {
             };
             (tally, stopped)
         });
-        if stopped? {
-            return Ok(None);
+        if !stopped? {
+            audience.is_told_the_end(py, &receiver)?;
         }
-        if let Some(progress) = progress {
-            progress.call1((rows, rows))?;
-        }
-        let array = PyArray1::from_vec(py, pixels).reshape([rows, columns, 3])?;
-        Ok(Some((array, counts(py, &tally)?)))
+        let finished_rows = watch.finished_rows();
+        settings.film.develop(&mut pixels[..finished_rows * columns * 3]);
+        let array = |values: Vec<f32>, depth: usize| {
+            Ok::<_, PyErr>(PyArray1::from_vec(py, values).reshape([rows, columns, depth])?.unbind())
+        };
+        Ok(Outcome {
+            pixels: array(pixels, 3)?,
+            layers: array(layers, channels)?,
+            finished_rows,
+            counts: counts(py, &tally)?.unbind(),
+        })
     }
 }
 
-/// Room for the pixels, which the system gives as they are written. That there is none is found out first: a failed
-/// `vec!` would end the process.
-fn zeros(columns: usize, rows: usize) -> PyResult<Vec<f32>> {
-    let values = columns.checked_mul(rows).and_then(|pixels| pixels.checked_mul(3));
+/// Room for as many values, which the system gives as they are written. That there is none is found out first: a
+/// failed `vec!` would end the process.
+fn zeros(shape: &[usize]) -> PyResult<Vec<f32>> {
+    let values = shape.iter().try_fold(1usize, |product, side| product.checked_mul(*side));
     match values {
         Some(values) if Vec::<f32>::new().try_reserve_exact(values).is_ok() => Ok(vec![0.0; values]),
         _ => Err(PyMemoryError::new_err("the picture does not fit in memory")),
     }
 }
 
-/// Reports progress and asks whether to stop.
-fn look_around(
-    py: Python,
-    watch: &Watch,
-    rows: usize,
-    told: &mut usize,
-    progress: Option<&Bound<PyAny>>,
-    cancel: Option<&Bound<PyAny>>,
-) -> PyResult<bool> {
-    py.check_signals()?;
-    let done = watch.rows_done.load(Ordering::Relaxed);
-    if let Some(progress) = progress
-        && done != *told
-        && done < rows
-    {
-        *told = done;
-        progress.call1((done, rows))?;
+/// Those who want to hear of a rendering while it goes on.
+struct Audience<'a, 'py> {
+    settings: &'a Settings,
+    progress: Option<Bound<'py, PyAny>>,
+    cancel: Option<Bound<'py, PyAny>>,
+    tiles: Option<Bound<'py, PyAny>>,
+    /// Rows that were reported last.
+    told: usize,
+    /// Largest value in the tiles so far.
+    largest: f32,
+}
+
+impl<'py> Audience<'_, 'py> {
+    /// Reports what is new, and asks whether to stop.
+    fn is_told(&mut self, py: Python<'py>, watch: &Watch, tiles: &Receiver<Tile>) -> PyResult<bool> {
+        py.check_signals()?;
+        let rows = watch.pixels_done.load(Ordering::Relaxed) / self.settings.columns;
+        if let Some(progress) = &self.progress
+            && rows != self.told
+            && rows < self.settings.rows
+        {
+            self.told = rows;
+            progress.call1((rows, self.settings.rows))?;
+        }
+        let started = Instant::now();
+        for tile in tiles.try_iter() {
+            self.show(py, tile)?;
+            if started.elapsed() > LOOK {
+                break;
+            }
+        }
+        self.cancel.as_ref().map_or(Ok(false), |cancel| cancel.call0()?.is_truthy())
     }
-    cancel.map_or(Ok(false), |cancel| cancel.call0()?.is_truthy())
+
+    fn is_told_the_end(&mut self, py: Python<'py>, tiles: &Receiver<Tile>) -> PyResult<()> {
+        for tile in tiles.try_iter() {
+            self.show(py, tile)?;
+        }
+        if let Some(progress) = &self.progress {
+            progress.call1((self.settings.rows, self.settings.rows))?;
+        }
+        Ok(())
+    }
+
+    /// Where values are to be divided by the largest one, a tile is by the largest so far.
+    fn show(&mut self, py: Python<'py>, mut tile: Tile) -> PyResult<()> {
+        let Some(tiles) = &self.tiles else { return Ok(()) };
+        self.largest = tile.pixels.iter().copied().fold(self.largest, f32::max);
+        self.settings.film.develop_by(self.largest, &mut tile.pixels);
+        let rows = tile.pixels.len() / (3 * tile.columns);
+        let pixels = PyArray1::from_vec(py, tile.pixels).reshape([rows, tile.columns, 3])?;
+        tiles.call1((tile.top, tile.step, pixels))?;
+        Ok(())
+    }
 }
 
 fn counts<'py>(py: Python<'py>, tally: &Tally) -> PyResult<Bound<'py, PyDict>> {
@@ -162,6 +246,7 @@ fn counts<'py>(py: Python<'py>, tally: &Tally) -> PyResult<Bound<'py, PyDict>> {
     counts.set_item("mirage", tally.mirage)?;
     counts.set_item("reflected", tally.reflected)?;
     counts.set_item("shadow", tally.shadow)?;
+    counts.set_item("ambient", tally.ambient)?;
     counts.set_item("arcs", tally.arcs)?;
     Ok(counts)
 }
@@ -282,5 +367,6 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(trace_paths, module)?)?;
     module.add_function(wrap_pyfunction!(trace_crossings, module)?)?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
+    module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())?;
     module.add("TEXTURE_KINDS", ir::TEXTURE_KINDS.to_vec())
 }

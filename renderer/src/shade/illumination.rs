@@ -13,6 +13,8 @@ pub struct Surface {
     pub diffuse: f64,
     pub specular: f64,
     pub hard: f64,
+    /// How far the normal deviates at random, 0..1.
+    pub fuzz: f64,
     pub gloss: Gloss,
 }
 
@@ -96,6 +98,11 @@ impl LitPoint<'_> {
     /// I_amb = I_a k_a O_d.
     pub fn ambient(&self, ambient: DVec3) -> DVec3 {
         ambient * self.surface.ambient * self.diffuse
+    }
+
+    /// What a share of light from all around, each direction weighted by N.D, makes of the surface: k_d O_d of it.
+    pub fn scattered(&self, light: DVec3) -> DVec3 {
+        light * self.surface.diffuse * self.diffuse
     }
 
     /// One light's term, I_j (N.L)(k_d O_d + k_s O_s), for a light that is in sight.

@@ -3,4 +3,5 @@
 pub mod haze;
 pub mod highlight;
 pub mod illumination;
+pub mod scatter;
 pub mod sky;

@@ -1,0 +1,144 @@
+"""The `m3d-rays` command: a scene in, the paths of rays through its air out, as a table.
+
+Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from m3d_render import _kernel, command
+from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.optics import trace_crossings, trace_paths
+from m3d_render.rendering import SceneError
+from m3dc.artefact import replacing
+from m3dc.ir import SceneIR
+
+HEADING = "angle_arcmin,r_m,z_m,end"
+MOST_ANGLES = 1_000_000
+QUARTER_TURN = 90 * 60
+"""Arcminutes to the zenith."""
+
+_BATCH = 1024
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    return command.ended(parser.prog, lambda: _run(options))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="m3d-rays",
+        description="Trace rays from a scene's observer through its MIRAGE, without a picture. The table has a row "
+        "for each crossing of a layer of the air, or for each distance of --at; a ray's last row says in the column "
+        "`end` why it ended: ground, top, range or segments.",
+        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
+    )
+    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+    parser.add_argument(
+        "--angles",
+        required=True,
+        type=_angles,
+        metavar="FROM:TO:STEP",
+        help="angles above the horizontal, in arcminutes; write --angles=FROM... if it is below 0",
+    )
+    parser.add_argument(
+        "--at", type=_distances, metavar="R1,R2,...", help="horizontal distances, m, instead of every crossing"
+    )
+    parser.add_argument("--csv", default="-", metavar="FILE", help="where to write the table; - is standard output")
+    parser.add_argument("--version", action="version", version=f"m3d-rays {_kernel.VERSION}")
+    return parser
+
+
+def _angles(text: str) -> NDArray[np.float64]:
+    """All angles from FROM to TO, in arcminutes."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise argparse.ArgumentTypeError(f"FROM:TO:STEP is expected, not '{text}'")
+    start, stop, step = (command.number(part) for part in parts)
+    if max(abs(start), abs(stop)) >= QUARTER_TURN:
+        raise argparse.ArgumentTypeError(f"angles must lie between -{QUARTER_TURN} and {QUARTER_TURN} arcminutes")
+    if step == 0 or (stop - start) / step < 0:
+        raise argparse.ArgumentTypeError(f"steps of {step:g} do not lead from {start:g} to {stop:g}")
+    # A last step that misses TO by rounding alone is still meant.
+    steps = (stop - start) / step * (1 + 1e-12) + 1e-9
+    if steps >= MOST_ANGLES:
+        raise argparse.ArgumentTypeError(f"these are more than {MOST_ANGLES:,} angles")
+    return np.array([start + step * i for i in range(math.floor(steps) + 1)], dtype=np.float64)
+
+
+def _distances(text: str) -> list[float]:
+    distances = [command.number(part) for part in text.split(",")]
+    if min(distances) < 0:
+        raise argparse.ArgumentTypeError("distances must not be below 0")
+    return distances
+
+
+def _run(options: argparse.Namespace) -> int:
+    to_screen = options.csv == "-"
+    if not to_screen:
+        command.check_folder(Path(options.csv))
+    ir = command.load(options.scene)
+    if ir.scene.mirage is None:
+        raise CommandError(SCENE_ERROR, f"{options.scene}: the scene has no MIRAGE, so its rays are straight")
+    lines = _lines(ir, options.angles, options.at)
+    try:
+        if to_screen:
+            _print(lines, sys.stdout)
+        else:
+            with replacing(Path(options.csv)) as (temporary,), temporary.open("w", encoding="utf-8") as file:
+                _print(lines, file)
+    except SceneError as error:
+        raise CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise CommandError(USAGE_ERROR, f"{options.csv}: {error.strerror or error}") from None
+    return FINE
+
+
+def _print(lines: Iterator[str], file: IO[str]) -> None:
+    # The first ray is traced before anything is written: most of what can go wrong goes wrong there.
+    first = next(lines)
+    print(HEADING, file=file)
+    print(first, file=file)
+    for line in lines:
+        print(line, file=file)
+    file.flush()
+
+
+def _lines(ir: SceneIR, angles: NDArray[np.float64], at: list[float] | None) -> Iterator[str]:
+    for first in range(0, len(angles), _BATCH):
+        batch = angles[first : first + _BATCH]
+        paths = trace_paths(ir, np.radians(batch / 60), at=at)
+        for i, angle in enumerate(batch):
+            end = _row(angle, paths.end_points[i], paths.ends[i])
+            if at is None:
+                crossings = trace_crossings(ir, math.radians(angle / 60))
+                yield from (_row(angle, crossing, "") for crossing in crossings[:-1])
+                yield end
+                continue
+            reached = ~np.isnan(paths.heights[i])
+            points = np.column_stack([paths.at, paths.heights[i]])[reached]
+            yield from (_row(angle, point, "") for point in points)
+            if not reached.all():
+                yield end
+
+
+def _row(angle: float, point: Sequence[float] | NDArray[np.float64], end: str) -> str:
+    return f"{angle:.10g},{point[0]:.6f},{point[1]:.6f},{end}"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

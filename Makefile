@@ -34,6 +34,7 @@ lint: tools ## Check style, types and that generated files are current
 	$(BIN)/basedpyright
 	cargo fmt --check --manifest-path renderer/Cargo.toml
 	cargo clippy --quiet --all-targets --manifest-path renderer/Cargo.toml -- -D warnings
+	$(BIN)/m3dfmt --check examples/*.m3d
 	cd grammar && ../$(BIN)/python -m generate --check
 
 format: tools ## Lay out the Python and Rust code

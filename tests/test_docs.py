@@ -18,7 +18,13 @@ from m3dc.report import print_human
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-COMMANDS = {"m3dc": "m3dc.cli", "m3d-render": "m3d_render.cli", "m3d-rays": "m3d_render.rays_cli"}
+COMMANDS = {
+    "m3dc": "m3dc.cli",
+    "m3dfmt": "m3dc.format_cli",
+    "m3d-render": "m3d_render.cli",
+    "m3d-rays": "m3d_render.rays_cli",
+    "mirage3d": "m3d_render.mirage3d",
+}
 
 
 def blocks(language: str) -> list[tuple[str, str]]:

@@ -15,7 +15,7 @@ MOST_SHOWN = 100
 WIDEST_LINE = 160
 _GUTTER = " " * 6
 
-_COLORS = {"error": "31;1", "warning": "33;1", "place": "1", "gutter": "34;1", "help": "36"}
+_COLORS = {"error": "31;1", "warning": "33;1", "hint": "36;1", "place": "1", "gutter": "34;1", "help": "36"}
 
 
 class _Style:

@@ -15,6 +15,7 @@ from pathlib import Path
 from m3dc import compile as compile_scene
 from m3dc import m3ir, report
 from m3dc.ir import SceneIR
+from m3dc.levels import Levels
 
 FINE, SCENE_ERROR, USAGE_ERROR, INTERRUPTED = 0, 1, 2, 130
 
@@ -60,7 +61,7 @@ def load(scene: str) -> SceneIR:
         except m3ir.FormatError as error:
             raise CommandError(USAGE_ERROR, f"{scene}: {error}") from None
     result = compile_scene(read(scene), scene)
-    report.print_human(result.diagnostics, result.source, sys.stderr)
+    report.print_human(Levels().apply(result.diagnostics), result.source, sys.stderr)
     if not result.ok:
         raise CommandError(SCENE_ERROR)
     return result.ir

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -141,6 +142,32 @@ def test_echo_lists_the_scene_with_its_diagnostics(scene: Path) -> None:
     lines = m3dc("--check", "--echo", scene).stdout.splitlines()
     assert lines[:2] == ["    1   /* one */", "    2   SOLID { SPHERE { RADIUS -2 } }"]
     assert lines[2].index("^") == lines[1].index("-2")
+
+
+def test_colours_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    import io
+
+    import m3dc as compiler
+    from m3dc.report import print_human
+
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    text = "SOLID { SPHERE { } SURFACE { TEXTURE { WOOD { } } COLOR <2,0,0> ROUGH x } TRANSFORM { TRANSX 1 } }"
+    hinted = compiler.compile("SCENE { SKY { } }" + text.replace("ROUGH x", ""))
+    assert {d.severity for d in hinted.diagnostics} == {"warning", "hint"}
+    for result in (compiler.compile(text), hinted):
+        terminal, file = Terminal(), io.StringIO()
+        monkeypatch.delenv("NO_COLOR", raising=False)
+        monkeypatch.setenv("TERM", "xterm")
+        print_human(result.diagnostics, result.source, terminal)
+        print_human(result.diagnostics, result.source, file)
+        assert re.sub(r"\x1b\[[0-9;]*m", "", terminal.getvalue()) == file.getvalue() != terminal.getvalue()
+        monkeypatch.setenv("NO_COLOR", "1")
+        quiet = Terminal()
+        print_human(result.diagnostics, result.source, quiet)
+        assert quiet.getvalue() == file.getvalue()
 
 
 def test_sarif(scene: Path) -> None:

@@ -78,6 +78,14 @@ def test_a_source_text(tmp_path):
     assert (tmp_path / "b.blue.raw").read_bytes() == bytes([153]) * 96
 
 
+def test_hints_are_not_shown(tmp_path):
+    scene = tmp_path / "a.m3d"
+    moved = "SOLID { SPHERE { } SURFACE { TEXTURE { CHECKER { } } } TRANSFORM { TRANSX 1 } }"
+    scene.write_text(f"SCENE {{ SKY {{ }} VIEW {{ WIDTH 4 HEIGHT 4 }} }} {moved}")
+    done = command(scene, "-o", tmp_path / "a.png")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_a_scene_with_errors_is_status_1(tmp_path):
     source = tmp_path / "scene.m3d"
     source.write_text("SCENE { VIEW { FOV <1,2,3> } }")

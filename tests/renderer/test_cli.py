@@ -13,6 +13,7 @@ import OpenImageIO
 import pytest
 from scene_builder import merman
 
+import m3d_render
 from m3dc import m3ir
 
 SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
@@ -125,6 +126,15 @@ def test_a_scene_that_cannot_be_rendered_is_status_1(tmp_path):
         (["scene.m3d", "-o", "a.png", "--log-scale", "nan"], "a number is expected"),
         (["scene.m3d", "-o", "a.png", "--depth", "0"], "not from 1"),
         (["scene.m3d", "-o", "a.png", "--nonsense"], "unrecognized"),
+        (["scene.m3d", "-o", "a.png", "--aov", "depth"], "only an .exr"),
+        (["scene.m3d", "-o", "a.exr", "--aov", "depht"], "'depht' is none of depth, normal"),
+        (["scene.m3d", "-o", "a.png", "--rows", "3"], "A:B is expected"),
+        (["scene.m3d", "-o", "a.png", "--rows", "5:4"], "no pixel lies between"),
+        (["scene.m3d", "-o", "a.png", "--rows", "8:9"], "outside of a picture of 12 columns and 8 rows"),
+        (["scene.m3d", "-o", "a.png", "--region", "1,2,3"], "T,L,B,R is expected"),
+        (["scene.m3d", "-o", "a.png", "--region", "1,2,3,4", "--rows", "1:2"], "not allowed with"),
+        (["scene.m3d", "-o", "a.png", "--samples", "0"], "not from 1"),
+        (["binary.m3ir", "--check-normals"], "give the .m3d"),
     ],
 )
 def test_usage_and_files_are_status_2(tmp_path, arguments, says):
@@ -138,6 +148,45 @@ def test_usage_and_files_are_status_2(tmp_path, arguments, says):
     assert says in done.stderr
     assert "Traceback" not in done.stderr
     assert sorted(entry.name for entry in tmp_path.iterdir()) == before
+
+
+def test_extra_outputs_are_channels_of_an_exr(compiled, tmp_path):
+    picture = tmp_path / "a.exr"
+    done = command(compiled, "-o", picture, "--aov", "all", "--region", "2,3,11,20")
+    assert done.returncode == 0, done.stderr
+    read = OpenImageIO.ImageBuf(str(picture))
+    names = {"R", "G", "B", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "solid", "primitive", "U", "V"}
+    assert set(read.spec().channelnames) == names | {"path.length", "path.arcs"}
+    spec = read.spec()
+    assert (spec.x, spec.y, spec.width, spec.height, spec.full_width, spec.full_height) == (3, 2, 18, 10, 32, 20)
+    rendering = m3d_render.prepare(m3ir.read(compiled)).render(aov=["path", "position"], region=(2, 3, 11, 20))
+    pixels = read.get_pixels(OpenImageIO.FLOAT)
+    for name, values in [
+        ("B", rendering.picture[..., 2]),
+        ("path.arcs", rendering.layers["path"][..., 1]),
+        ("P.Y", rendering.layers["position"][..., 1]),
+    ]:
+        np.testing.assert_array_equal(pixels[..., spec.channelnames.index(name)], values)
+
+
+def test_rows_of_separate_runs_join(compiled, tmp_path):
+    def planes(name, *options):
+        assert command(compiled, "-o", tmp_path / f"{name}.raw", *options).returncode == 0
+        return (tmp_path / f"{name}.red.raw").read_bytes()
+
+    assert planes("top", "--rows", "0:6") + planes("foot", "--rows", "7:19") == planes("whole")
+
+
+MESH = """SOLID {{ POLYGONS {{ PHONG VERTICES {{ 3 <0,0,0> <1,0,0> <0,1,0> }}
+SFACETS {{ 1  0 1 2  <0,0,1> <0,0,1> <0,0,{}> }} }} }}"""
+
+
+@pytest.mark.parametrize(("z", "status"), [(1, 0), (-1, 1)])
+def test_normals_are_checked(tmp_path, z, status):
+    done = command("-", "--check-normals", input=MESH.format(z), cwd=tmp_path)
+    assert done.returncode == status, done.stderr
+    assert ("Normal on wrong side of facet" in done.stderr) == bool(status)
+    assert not list(tmp_path.iterdir())
 
 
 def interrupted(*arguments, after):

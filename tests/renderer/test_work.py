@@ -1,0 +1,138 @@
+"""Long work: the same picture however it is divided, what is shown and kept on the way, and how soon it ends."""
+
+import itertools
+import threading
+import time
+
+import numpy as np
+import pytest
+from scene_builder import merman
+
+import m3d_render
+from m3dc.ir import Ambient
+
+OPTIONS = [
+    {},
+    {"straight": True, "shadows": True},
+    {"samples": 3, "shadows": True, "refract_reflections": True},
+]
+
+
+@pytest.fixture(scope="module")
+def scene():
+    """The merman with random light on it."""
+    scene = merman(61, 43).set(ambient=Ambient(0.2, (1, 1, 1), 2, 3), shadows=True)
+    for surface in scene.rows["surfaces"]:
+        surface["fuzz"] = 0.1
+    return m3d_render.prepare(scene.build())
+
+
+@pytest.mark.parametrize("options", OPTIONS)
+def test_threads_tiles_and_parts_make_the_same_picture(scene, options):
+    aov = ["position", "path", "uv"]
+    one = scene.render(threads=1, aov=aov, **options)
+    expected = [one.picture.tobytes(), *(layer.tobytes() for layer in one.layers.values())]
+
+    def same(rendering):
+        return [rendering.picture.tobytes(), *(layer.tobytes() for layer in rendering.layers.values())] == expected
+
+    assert all(same(scene.render(threads=n, aov=aov, **options)) for n in (2, 3, 8))
+    assert all(same(scene.render(threads=n, aov=aov, tiles=lambda _: None, **options)) for n in (1, 3))
+    rng = np.random.default_rng(5)
+    cuts = [0, 3, 4, 19, 30, 43]
+    parts = [(first, end - 1) for first, end in itertools.pairwise(cuts)]
+    rendered = {i: scene.render(rows=parts[i], **options).picture for i in rng.permutation(len(parts))}
+    rendered = [rendered[i] for i in range(len(parts))]
+    joined = np.concatenate(rendered)
+    assert joined.tobytes() == expected[0]
+    pieces = np.empty_like(one.picture)
+    for top, left in rng.permutation([(t, le) for t in range(0, 43, 17) for le in range(0, 61, 23)]).tolist():
+        piece = scene.render(region=(top, left, top + 16, left + 22), **options).picture
+        pieces[top : top + 17, left : left + 23] = piece
+    assert pieces.tobytes() == expected[0]
+
+
+# On the way
+
+
+def test_tiles_come_from_coarse_to_fine(scene):
+    tiles = []
+    whole = scene.render(tiles=tiles.append).picture
+    canvas = np.full_like(whole, np.nan)
+    steps = [tile.step for tile in tiles]
+    assert steps == sorted(steps, reverse=True)
+    assert set(steps) == {4, 2, 1}
+    for tile in tiles:
+        rows = min(4, 43 - tile.top)
+        expected = whole[tile.top : tile.top + rows : tile.step, :: tile.step]
+        assert tile.pixels.tobytes() == expected.tobytes()
+        canvas[tile.top : tile.top + rows : tile.step, :: tile.step] = tile.pixels
+    assert canvas.tobytes() == whole.tobytes()
+    assert sum(tile.step == 4 for tile in tiles) == 11
+
+
+def test_normalised_tiles_stay_within_their_range(scene):
+    tiles = []
+    scene.render(tiles=tiles.append, normalize=True)
+    assert all(tile.pixels.max() <= 1 for tile in tiles)
+
+
+def test_progress_rises_to_the_last_row(scene):
+    for tiles in (None, lambda _: time.sleep(0.002)):
+        seen = []
+        scene.render(samples=32, progress=lambda done, rows: seen.append((done, rows)), tiles=tiles)  # noqa: B023
+        assert seen == sorted(set(seen))
+        assert seen[-1] == (43, 43)
+
+
+SLOW = {
+    "many pixels": {"width": 20_000, "height": 10_000},
+    "many samples a pixel": {"samples": 65_536, "rows": (20, 43)},
+    "tiles": {"width": 20_000, "height": 10_000, "tiles": lambda _: None},
+}
+
+
+@pytest.mark.parametrize("name", [*SLOW, "much light to sample"])
+def test_a_cancelled_rendering_ends_within_a_tenth_of_a_second(scene, name):
+    if name not in SLOW:
+        slow = merman(40, 30).set(ambient=Ambient(0.2, (1, 1, 1), 1_000_000, 50))
+        scene = m3d_render.prepare(slow.build())
+    asked = threading.Event()
+    threading.Timer(0.7, asked.set).start()
+    when = []
+
+    def cancel():
+        if asked.is_set() and not when:
+            when.append(time.perf_counter())
+        return asked.is_set()
+
+    with pytest.raises(m3d_render.Cancelled) as cancelled:
+        scene.render(cancel=cancel, **SLOW.get(name, {}))
+    # Twice the tenth that it may take, for a machine that does other things too.
+    assert time.perf_counter() - when[0] < 0.2
+    rendering = cancelled.value.rendering
+    assert rendering.region.bottom == rendering.region.top + len(rendering.picture) - 1
+
+
+def test_a_cancelled_rendering_keeps_its_finished_rows(scene):
+    asked = threading.Event()
+
+    def progress(done, _):
+        if done >= 5:
+            asked.set()
+
+    options = {"samples": 300, "aov": ["depth"]}
+    with pytest.raises(m3d_render.Cancelled) as cancelled:
+        scene.render(progress=progress, cancel=asked.is_set, **options)
+    kept = cancelled.value.rendering
+    rows = len(kept.picture)
+    assert 3 <= rows < 43
+    again = scene.render(rows=(0, rows - 1), **options)
+    assert kept.picture.tobytes() == again.picture.tobytes()
+    assert kept.layers["depth"].tobytes() == again.layers["depth"].tobytes()
+
+
+def test_an_error_in_a_callback_is_the_callers(scene):
+    for name in ("progress", "cancel", "tiles"):
+        with pytest.raises(ZeroDivisionError):
+            scene.render(width=2000, height=1500, **{name: lambda *_: 1 / 0})

@@ -10,7 +10,6 @@ from m3dc.ir import SceneIR
 
 VERSION: str
 LAYERS: list[tuple[str, int]]
-TEXTURE_KINDS: list[int]
 
 class Outcome:
     pixels: NDArray[np.float32]

@@ -9,7 +9,6 @@ import argparse
 import json
 import sys
 import time
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from m3d_render.metadata import metadata
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES
 from m3d_render.picture import SUFFIXES, PictureError, check_suffix, plane_paths, write_picture
 from m3d_render.progress import ProgressLine
-from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, missing_textures, prepare
+from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
 from m3dc import compile as compile_scene
 from m3dc import report
 from m3dc.ir import SceneIR
@@ -149,10 +148,6 @@ def _run(options: argparse.Namespace) -> int:
     started = time.perf_counter()
     ir = command.load(options.scene)
     load = time.perf_counter() - started
-    missing = missing_textures(ir)
-    if missing:
-        names, them = ", ".join(missing), "it" if len(missing) == 1 else "them"
-        _say(f"warning: this version does not have the texture {names}: rendering without {them}")
     rendering, whole = _render(ir, options)
     started = time.perf_counter()
     if rendering.picture.size:
@@ -174,9 +169,7 @@ def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, bool]:
     """What was rendered, and whether it is all that was asked for."""
     progress = ProgressLine(sys.stderr) if sys.stderr.isatty() else None
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)
-            scene = prepare(ir)
+        scene = prepare(ir)
         with Interrupt() as interrupt:
             rendering = scene.render(
                 width=options.width,
@@ -275,10 +268,6 @@ def _peak_memory() -> int | None:
         return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak if sys.platform == "darwin" else 1024 * peak
-
-
-def _say(message: str) -> None:
-    print(f"m3d-render: {message}", file=sys.stderr)
 
 
 if __name__ == "__main__":

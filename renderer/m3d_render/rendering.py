@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import time
-import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias, Unpack
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from m3d_render import _kernel
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
-from m3dc.ir import SceneIR, TextureKind
+from m3dc.ir import SceneIR
 
 Layers: TypeAlias = dict[str, NDArray[np.float32]]
 
@@ -227,23 +226,12 @@ def render(ir: SceneIR, **options: Unpack[RenderOptions]) -> Picture:
 
 def prepare(ir: SceneIR, *, finer: int = 1) -> Prepared:
     """Builds the kernel's scene. `finer` divides each interval of the temperature profile into so many layers."""
-    missing = missing_textures(ir)
-    if missing:
-        names = ", ".join(missing)
-        warnings.warn(f"rendering without the textures this version does not have: {names}", stacklevel=3)
     started = time.perf_counter()
     try:
         kernel = _kernel.Scene(ir, _whole("finer", finer, 1, 10_000))
     except ValueError as error:
         raise SceneError(str(error)) from None
     return Prepared(ir, kernel, time.perf_counter() - started)
-
-
-def missing_textures(ir: SceneIR) -> list[str]:
-    """Names of the scene's textures that the kernel does not have."""
-    kinds = sorted({int(kind) for kind in ir["textures"]["kind"]} - set(_kernel.TEXTURE_KINDS))
-    known = {int(kind) for kind in TextureKind}
-    return [TextureKind(kind).name if kind in known else str(kind) for kind in kinds]
 
 
 def usable_threads() -> int:

@@ -7,6 +7,7 @@ pub mod bvh;
 pub mod camera;
 pub mod film;
 pub mod layer;
+pub mod noise;
 pub mod optics;
 pub mod python;
 pub mod random;

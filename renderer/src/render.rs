@@ -18,7 +18,7 @@ use crate::shade::illumination::LitPoint;
 use crate::shade::scatter::{into_hemisphere, roughened};
 use crate::shape::RadialPlane;
 use crate::supersampling::Filter;
-use crate::texture::{Spot, Texture};
+use crate::texture::{Skin, Spot, Texture};
 use crate::trace::{Departure, blocked, clearance, nearest, nearest_on_curve};
 
 /// A ray with a horizontal part shorter than this is straight.
@@ -320,16 +320,16 @@ impl<'a> Tracer<'a> {
                 }
             };
             let normals = scene.shapes.normals(shape, point, direction);
-            let mut diffuse = solid.surface.color;
-            let mut normal = normals.shading;
+            let mut skin = Skin { color: solid.surface.color, normal: normals.shading };
             if !solid.textures.is_empty() {
                 let needs_uv = solid.textures.iter().any(Texture::needs_uv);
                 let uv = if needs_uv { scene.shapes.uv(shape, point) } else { None };
                 let spot = Spot { point, uv };
                 for texture in &solid.textures {
-                    diffuse = texture.color(diffuse, &spot);
+                    skin = texture.apply(skin, &spot);
                 }
             }
+            let Skin { color: diffuse, mut normal } = skin;
             if solid.surface.fuzz > 0.0 {
                 normal = roughened(&mut errand.place.child(FUZZ).numbers(), normal, solid.surface.fuzz);
             }

@@ -22,8 +22,23 @@ use crate::shape::rectangle::Rectangle;
 use crate::shape::sphere::Sphere;
 use crate::texture::Texture;
 use crate::texture::blend::{Along, Blend};
+use crate::texture::bumps::Bumps;
 use crate::texture::checker::Checker;
+use crate::texture::clouds::Clouds;
 use crate::texture::color_range::ColorRange;
+use crate::texture::gradient::Gradient;
+use crate::texture::granite::Granite;
+use crate::texture::heights::Heights;
+use crate::texture::marble::Marble;
+use crate::texture::placement::Placement;
+use crate::texture::ripples::Ripples;
+use crate::texture::snow::Snow;
+use crate::texture::spotted::Spotted;
+use crate::texture::squeeze::Squeeze;
+use crate::texture::tint::Tint;
+use crate::texture::wave::Wave;
+use crate::texture::waves::lowered_by_frequency;
+use crate::texture::wood::Wood;
 
 fn damaged(what: String) -> PyErr {
     PyValueError::new_err(format!("damaged scene: {what}"))
@@ -208,7 +223,7 @@ fn lights(ir: &Bound<PyAny>) -> PyResult<Vec<Light>> {
 
 fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
     let object_inverse = Table::of(ir, "solids")?.matrices("inverse")?;
-    let textures = textures(ir)?;
+    let (textures, heights) = (textures(ir)?, heights(ir)?);
     let table = Table::of(ir, "surfaces")?;
     let color = table.vectors("color")?;
     let plain = |column| table.plain::<f64>(column);
@@ -237,7 +252,10 @@ fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
                         beckmann: *table.entry(&beckmann, i)?,
                     },
                 },
-                textures: textures[used].iter().filter_map(|texture| texture.on(object_inverse[i])).collect(),
+                textures: textures[used]
+                    .iter()
+                    .map(|texture| texture.on(object_inverse[i], heights))
+                    .collect::<PyResult<_>>()?,
             })
         })
         .collect()
@@ -247,37 +265,56 @@ fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
 struct TextureRow {
     kind: i32,
     local: bool,
-    color: DVec3,
     inverse: DMat4,
-    ranges: Vec<ColorRange>,
+    tint: Tint,
+    turbulence: f64,
+    squeeze: Squeeze,
+    scale: f64,
+    slope: f64,
+    elevation: f64,
+    waves: Vec<Wave>,
 }
 
 impl TextureRow {
-    /// World to texture space is the inverse object matrix where LOCAL, then the texture's own inverse. None for
-    /// the kinds that the kernel does not have.
-    fn on(&self, object_inverse: DMat4) -> Option<Texture> {
-        let blend =
-            |along| Some(Texture::Blend(Blend { along, color: self.color, ranges: self.ranges.clone() }));
-        match self.kind {
-            0 => {
-                let to_texture = if self.local { self.inverse * object_inverse } else { self.inverse };
-                Some(Texture::Checker(Checker { color: self.color, to_texture }))
-            }
-            11 => blend(Along::U),
-            12 => blend(Along::V),
-            _ => None,
-        }
+    /// The texture on an object. World to texture space is the inverse object matrix where LOCAL, then the
+    /// texture's own inverse.
+    fn on(&self, object_inverse: DMat4, heights: Option<Heights>) -> PyResult<Texture> {
+        let placement = Placement::new(if self.local { self.inverse * object_inverse } else { self.inverse });
+        let (tint, turbulence, squeeze, scale) =
+            (self.tint.clone(), self.turbulence, self.squeeze, self.scale);
+        let waves = &self.waves;
+        Ok(match self.kind {
+            0 => Texture::Checker(Checker { placement, color: tint.color }),
+            1 => Texture::Wood(Wood { placement, tint, turbulence, squeeze }),
+            2 => Texture::Marble(Marble { placement, tint, turbulence, squeeze }),
+            3 => Texture::Spotted(Spotted { placement, tint, scale }),
+            4 => Texture::Granite(Granite { placement, tint, turbulence }),
+            5 => Texture::Clouds(Clouds { placement, tint, turbulence, squeeze }),
+            6 => Texture::Snow(Snow {
+                placement,
+                color: tint.color,
+                heights,
+                elevation: self.elevation,
+                scale,
+                steepest: self.slope.to_radians().cos(),
+                turbulence,
+            }),
+            7 => Texture::Gradient(Gradient { placement, tint, heights, turbulence }),
+            8 => Texture::Bumps(Bumps { placement, scale, squeeze, turbulence, ranges: tint.ranges }),
+            9 => Texture::Ripples(lowered_by_frequency(placement, waves)),
+            10 => Texture::Ripples(Ripples { placement, waves: waves.clone() }),
+            11 => Texture::Blend(Blend { along: Along::U, tint }),
+            12 => Texture::Blend(Blend { along: Along::V, tint }),
+            other => return Err(damaged(format!("a texture is of an unknown kind, {other}"))),
+        })
     }
 }
 
-/// Numbers of the texture kinds that `TextureRow::on` knows.
-pub const TEXTURE_KINDS: [i32; 3] = [0, 11, 12];
-
-fn textures(ir: &Bound<PyAny>) -> PyResult<Vec<TextureRow>> {
+fn color_ranges(ir: &Bound<PyAny>) -> PyResult<Vec<ColorRange>> {
     let table = Table::of(ir, "color_ranges")?;
     let (start, end): (Vec<f64>, Vec<f64>) = (table.plain("start")?, table.plain("end")?);
     let (start_color, end_color) = (table.vectors("start_color")?, table.vectors("end_color")?);
-    let ranges: Vec<ColorRange> = (0..start.len())
+    (0..start.len())
         .map(|i| {
             Ok(ColorRange {
                 start: start[i],
@@ -286,26 +323,69 @@ fn textures(ir: &Bound<PyAny>) -> PyResult<Vec<TextureRow>> {
                 end_color: *table.entry(&end_color, i)?,
             })
         })
-        .collect::<PyResult<_>>()?;
+        .collect()
+}
+
+fn waves(ir: &Bound<PyAny>) -> PyResult<Vec<Wave>> {
+    let table = Table::of(ir, "waves")?;
+    let center = table.vectors("center")?;
+    let (amplitude, freq) = (table.plain("amplitude")?, table.plain("freq")?);
+    let (phase, damp) = (table.plain("phase")?, table.plain("damp")?);
+    (0..center.len())
+        .map(|i| {
+            Ok(Wave {
+                center: center[i],
+                amplitude: *table.entry(&amplitude, i)?,
+                freq: *table.entry(&freq, i)?,
+                phase: *table.entry(&phase, i)?,
+                damp: *table.entry(&damp, i)?,
+            })
+        })
+        .collect()
+}
+
+fn textures(ir: &Bound<PyAny>) -> PyResult<Vec<TextureRow>> {
+    let (ranges, waves) = (color_ranges(ir)?, waves(ir)?);
     let table = Table::of(ir, "textures")?;
     let kind: Vec<i32> = table.plain("kind")?;
     let local: Vec<bool> = table.plain("local")?;
     let (color, inverse) = (table.vectors("color")?, table.matrices("inverse")?);
-    let first: Vec<i32> = table.plain("first_color_range")?;
-    let count: Vec<i32> = table.plain("color_range_count")?;
+    let plain = |column| table.plain::<f64>(column);
+    let (turbulence, squeeze, scale) = (plain("turbulence")?, plain("squeeze")?, plain("scale")?);
+    let (slope, elevation) = (plain("slope")?, plain("elevation")?);
+    let counts = |column| table.plain::<i32>(column);
+    let (first_range, range_count) = (counts("first_color_range")?, counts("color_range_count")?);
+    let (first_wave, wave_count) = (counts("first_wave")?, counts("wave_count")?);
     (0..kind.len())
         .map(|i| {
-            let used =
-                rows("color_ranges", *table.entry(&first, i)?, *table.entry(&count, i)?, ranges.len())?;
+            let part = |what, first: &[i32], count: &[i32], length| {
+                rows(what, *table.entry(first, i)?, *table.entry(count, i)?, length)
+            };
+            let used_ranges = part("color_ranges", &first_range, &range_count, ranges.len())?;
+            let used_waves = part("waves", &first_wave, &wave_count, waves.len())?;
             Ok(TextureRow {
                 kind: kind[i],
                 local: *table.entry(&local, i)?,
-                color: *table.entry(&color, i)?,
                 inverse: *table.entry(&inverse, i)?,
-                ranges: ranges[used].to_vec(),
+                tint: Tint { color: *table.entry(&color, i)?, ranges: ranges[used_ranges].to_vec() },
+                turbulence: *table.entry(&turbulence, i)?,
+                squeeze: Squeeze::new(*table.entry(&squeeze, i)?),
+                scale: *table.entry(&scale, i)?,
+                slope: *table.entry(&slope, i)?,
+                elevation: *table.entry(&elevation, i)?,
+                waves: waves[used_waves].to_vec(),
             })
         })
         .collect()
+}
+
+/// The heights of the scene's extent, if it has any.
+fn heights(ir: &Bound<PyAny>) -> PyResult<Option<Heights>> {
+    let extent = ir.getattr("scene")?.getattr("extent")?;
+    if extent.is_none() {
+        return Ok(None);
+    }
+    Ok(Some(Heights { low: vector(&extent, "minimum")?.z, high: vector(&extent, "maximum")?.z }))
 }
 
 /// P, U and V of a table of planar primitives.

@@ -367,6 +367,5 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(trace_paths, module)?)?;
     module.add_function(wrap_pyfunction!(trace_crossings, module)?)?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
-    module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())?;
-    module.add("TEXTURE_KINDS", ir::TEXTURE_KINDS.to_vec())
+    module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())
 }

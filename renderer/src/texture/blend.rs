@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use super::Spot;
-use super::color_range::{ColorRange, color_at};
+use super::tint::Tint;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Along {
@@ -19,8 +19,7 @@ pub enum Along {
 #[derive(Clone, Debug)]
 pub struct Blend {
     pub along: Along,
-    pub color: DVec3,
-    pub ranges: Vec<ColorRange>,
+    pub tint: Tint,
 }
 
 impl Blend {
@@ -29,10 +28,10 @@ impl Blend {
             return surface;
         };
         let t = if self.along == Along::U { u } else { v };
-        if self.ranges.is_empty() {
-            rgb(hsv(surface).lerp(hsv(self.color), t))
+        if self.tint.ranges.is_empty() {
+            rgb(hsv(surface).lerp(hsv(self.tint.color), t))
         } else {
-            color_at(&self.ranges, t).unwrap_or(surface)
+            self.tint.over(surface, t)
         }
     }
 }
@@ -65,6 +64,7 @@ fn rgb(hsv: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::tint::plain;
     use proptest::prelude::*;
 
     proptest! {
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn red_to_blue_goes_by_yellow_and_green() {
-        let blend = Blend { along: Along::U, color: DVec3::Z, ranges: vec![] };
+        let blend = Blend { along: Along::U, tint: plain(DVec3::Z) };
         let at = |u| blend.color(DVec3::X, &Spot { point: DVec3::ZERO, uv: Some((u, 0.0)) });
         assert!((at(0.25) - DVec3::new(1.0, 1.0, 0.0)).abs().max_element() < 1e-12);
         assert!((at(0.5) - DVec3::Y).abs().max_element() < 1e-12);

@@ -10,9 +10,11 @@ pub struct ColorRange {
     pub end_color: DVec3,
 }
 
-/// The blend within the range that holds t, start <= t < end; None in a gap between ranges.
+/// The blend within the range that holds t, start <= t < end; None in a gap between ranges. A range that ends at 1
+/// holds 1.
 pub fn color_at(ranges: &[ColorRange], t: f64) -> Option<DVec3> {
-    let range = ranges.iter().find(|range| range.start <= t && t < range.end)?;
+    let holds = |range: &&ColorRange| range.start <= t && (t < range.end || (t == 1.0 && range.end == 1.0));
+    let range = ranges.iter().find(holds)?;
     Some(range.start_color.lerp(range.end_color, (t - range.start) / (range.end - range.start)))
 }
 
@@ -27,5 +29,7 @@ mod tests {
         assert_eq!(color_at(&ranges, 0.25), Some(DVec3::splat(0.5)));
         assert_eq!(color_at(&ranges, 0.5), None);
         assert_eq!(color_at(&ranges, 0.75), Some(DVec3::ZERO));
+        assert_eq!(color_at(&ranges, 1.0), Some(DVec3::ONE));
+        assert_eq!(color_at(&ranges[..1], 0.5), None);
     }
 }

@@ -1,13 +1,38 @@
-//! Procedural textures: how the colour of a surface changes from point to point. Thesis 3.5 and 7.5.5.4.
+//! Procedural textures: how the colour or the normal of a surface changes from point to point. Thesis 3.5 and
+//! 7.5.5.4.
 
 pub mod blend;
+pub mod bumps;
 pub mod checker;
+pub mod clouds;
 pub mod color_range;
+pub mod gradient;
+pub mod granite;
+pub mod heights;
+pub mod marble;
+pub mod placement;
+pub mod ripples;
+pub mod snow;
+pub mod spotted;
+pub mod squeeze;
+pub mod tint;
+pub mod wave;
+pub mod waves;
+pub mod wood;
 
 use glam::DVec3;
 
 use blend::Blend;
+use bumps::Bumps;
 use checker::Checker;
+use clouds::Clouds;
+use gradient::Gradient;
+use granite::Granite;
+use marble::Marble;
+use ripples::Ripples;
+use snow::Snow;
+use spotted::Spotted;
+use wood::Wood;
 
 /// A point of a surface, as textures see it.
 #[derive(Clone, Copy, Debug)]
@@ -18,10 +43,27 @@ pub struct Spot {
     pub uv: Option<(f64, f64)>,
 }
 
-/// The closed set of textures.
+/// What textures change. Each takes it as the one before has left it.
+#[derive(Clone, Copy, Debug)]
+pub struct Skin {
+    pub color: DVec3,
+    /// Unit vector, on the side one sees.
+    pub normal: DVec3,
+}
+
+/// The closed set of textures. WAVES are ripples of other heights, UBLEND and VBLEND one blend.
 #[derive(Clone, Debug)]
 pub enum Texture {
     Checker(Checker),
+    Wood(Wood),
+    Marble(Marble),
+    Spotted(Spotted),
+    Granite(Granite),
+    Clouds(Clouds),
+    Snow(Snow),
+    Gradient(Gradient),
+    Bumps(Bumps),
+    Ripples(Ripples),
     Blend(Blend),
 }
 
@@ -30,11 +72,22 @@ impl Texture {
         matches!(self, Texture::Blend(_))
     }
 
-    /// The colour that the texture makes of the surface's.
-    pub fn color(&self, surface: DVec3, spot: &Spot) -> DVec3 {
+    /// The skin with this texture on it.
+    pub fn apply(&self, skin: Skin, spot: &Spot) -> Skin {
+        let Skin { color, normal } = skin;
+        let painted = |color| Skin { color, normal };
         match self {
-            Texture::Checker(checker) => checker.color(surface, spot),
-            Texture::Blend(blend) => blend.color(surface, spot),
+            Texture::Checker(checker) => painted(checker.color(color, spot)),
+            Texture::Wood(wood) => painted(wood.color(color, spot)),
+            Texture::Marble(marble) => painted(marble.color(color, spot)),
+            Texture::Spotted(spotted) => painted(spotted.color(color, spot)),
+            Texture::Granite(granite) => painted(granite.color(color, spot)),
+            Texture::Clouds(clouds) => painted(clouds.color(color, spot)),
+            Texture::Snow(snow) => painted(snow.color(color, normal, spot)),
+            Texture::Gradient(gradient) => painted(gradient.color(color, spot)),
+            Texture::Bumps(bumps) => bumps.apply(skin, spot),
+            Texture::Ripples(ripples) => Skin { color, normal: ripples.normal(normal, spot) },
+            Texture::Blend(blend) => painted(blend.color(color, spot)),
         }
     }
 }

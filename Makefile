@@ -50,6 +50,7 @@ generate: tools ## Write everything that is made of grammar/language.toml
 
 gallery: programs ## Render the pictures of the documentation anew
 	$(BIN)/python docs/gallery.py
+	$(BIN)/python docs/texture_pictures.py
 
 bench: tools ## Measure speed and memory, beside POV-Ray where it is installed
 	$(BIN)/python -m bench

@@ -459,17 +459,6 @@ def test_blends_run_along_u_and_v():
     np.testing.assert_allclose(rectangle(TextureKind.UBLEND, 2, 4, ranges=ranges), red, atol=1e-6)
 
 
-def test_a_texture_that_is_not_there_is_left_out_with_a_warning():
-    scene = bright(SceneBuilder(width=3, height=3))
-    solid = scene.solid(color=(0, 1, 0), ambient=1.0, textures=[(TextureKind.WAVES, {})])
-    scene.sphere((0, 0, 0), 1, solid)
-    ir = scene.build()
-    if m3d_render.rendering.missing_textures(ir):
-        with pytest.warns(UserWarning, match="WAVES"):
-            picture = m3d_render.render(ir)
-        np.testing.assert_allclose(picture[1, 1], [0, 1, 0])
-
-
 def test_phong_normals_are_interpolated():
     """A flat facet whose corners have a sphere's normals is lit like the sphere."""
     scene = SceneBuilder((10, 0, 0), (0, 0, 0), 20, 3, 3).set(ambient=Ambient(0.0, WHITE, 0, 0))
@@ -570,6 +559,8 @@ def test_a_damaged_ir_is_refused():
         ("primitives", "solid", 99),
         ("surfaces", "first_texture", -1),
         ("surfaces", "texture_count", 1000),
+        ("textures", "kind", 17),
+        ("textures", "wave_count", 3),
     ]:
         broken = copy.deepcopy(ir)
         broken[table][column][0] = value

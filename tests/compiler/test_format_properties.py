@@ -170,6 +170,7 @@ def test_a_range_keeps_tokens_and_comments(data: bytes, start: int, more: int) -
     changes = format_range(data, start, start + more)
     assert set(changes) <= set(edits(data))
     assert leaves(made(data, changes)) == leaves(data)
+    start = min(start, data.count(b"\n") + 1)  # a range after the end is at the end
     for edit in changes:
         assert data.count(b"\n", 0, edit.span[0]) < start + more
         assert data.count(b"\n", 0, edit.span[1]) >= start - 1

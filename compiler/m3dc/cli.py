@@ -16,6 +16,9 @@ from .artefact import replacing
 from .dump import dump
 from .levels import levels
 
+# The IR counts the bytes of its source in 32 bits.
+LARGEST_SOURCE = 2**32 - 1
+
 _PRINT = {"json": report.print_json, "sarif": report.print_sarif}
 
 
@@ -83,6 +86,8 @@ def _run(options: argparse.Namespace) -> int:
         text = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
     except OSError as error:
         return fail(f"cannot read {name}: {error.strerror or error}")
+    if len(text) > LARGEST_SOURCE:
+        return fail(f"{name} is {len(text) / 2**30:.1f} GiB; a scene is at most {LARGEST_SOURCE / 2**30:.0f} GiB")
     result = compile(text, name)
     shown = chosen.apply(result.diagnostics)
     if options.echo:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
@@ -31,25 +31,25 @@ class Source:
         self.name = name
 
     @cached_property
-    def _line_starts(self) -> list[int]:
+    def _line_starts(self) -> NDArray[np.int64]:
         newlines = np.flatnonzero(np.frombuffer(self.data, np.uint8) == 0x0A)
-        return [0, *(newlines + 1).tolist()]
+        return np.concatenate([np.zeros(1, np.int64), newlines + 1])
 
     @property
     def line_count(self) -> int:
         """How many lines there are; what follows the last line's end is one only if it is not empty."""
-        return len(self._line_starts) - (self._line_starts[-1] == len(self.data))
+        return len(self._line_starts) - int(self._line_starts[-1] == len(self.data))
 
     def position(self, offset: int) -> Position:
         """Line and column of the character at a byte offset, which may be the end of the text."""
-        line = bisect_right(self._line_starts, offset)
-        start = self._line_starts[line - 1]
+        line = int(np.searchsorted(self._line_starts, offset, side="right"))
+        start = int(self._line_starts[line - 1])
         return Position(line, len(self.data[start:offset].decode("utf-8", "replace")) + 1)
 
     def line(self, number: int) -> str:
         """The text of a line, counted from 1, without its end."""
-        start = self._line_starts[number - 1]
-        end = self._line_starts[number] if number < len(self._line_starts) else len(self.data)
+        start = int(self._line_starts[number - 1])
+        end = int(self._line_starts[number]) if number < len(self._line_starts) else len(self.data)
         return self.data[start:end].decode("utf-8", "replace").rstrip("\r\n")
 
     def text(self, start: int, end: int) -> str:

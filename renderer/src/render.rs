@@ -279,7 +279,7 @@ impl<'a> Tracer<'a> {
                 return Sight { arrival, arcs: i + 1 };
             }
         }
-        while path.arc(path.arcs().len()).is_some() {}
+        path.finish();
         let arcs = path.arcs().len();
         self.tally.arcs += arcs as u64;
         let (r, z, slope) = path.tip();

@@ -5,7 +5,8 @@
 //! from the stored end, which is the next arc's start, and a zero there counts: nothing is lost between two arcs,
 //! between two facets with a common edge, or between the last arc and a surface that lies where it ends.
 
-use super::path::{Arc, Path};
+use super::arc::Arc;
+use super::path::Path;
 use crate::shape::Segment;
 use crate::shape::plane::Line;
 use crate::shape::sphere::Circle;
@@ -24,6 +25,14 @@ impl Quadratic {
         (self.a * s + self.b) * s + self.c
     }
 
+    /// Whether the same signs at both ends show that there is no root between: there are two roots or none, and none
+    /// unless the values first near zero and then leave it.
+    #[inline]
+    fn keeps_its_sign(&self, from: f64, to: f64, value_from: f64, value_to: f64) -> bool {
+        let slope = |s: f64| 2.0 * self.a * s + self.b;
+        value_from * value_to > 0.0 && (slope(from) * value_from >= 0.0 || slope(to) * value_from <= 0.0)
+    }
+
     /// Smallest root in from..to, both included, where the values at the two ends are known better than the
     /// coefficients say.
     #[inline]
@@ -31,12 +40,10 @@ impl Quadratic {
         if value_from == 0.0 {
             return Some(from);
         }
+        if self.keeps_its_sign(from, to, value_from, value_to) {
+            return None;
+        }
         if value_from * value_to > 0.0 {
-            // Two roots or none, and none unless it first nears zero and then leaves it.
-            let slope = |s: f64| 2.0 * self.a * s + self.b;
-            if slope(from) * value_from >= 0.0 || slope(to) * value_from <= 0.0 {
-                return None;
-            }
             let turn = self.turn();
             return (self.at(turn) * value_from <= 0.0).then(|| self.root_before(from, turn));
         }
@@ -109,40 +116,51 @@ impl Range {
 /// Distance at which the curve first meets a line.
 pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<f64> {
     let side = |r: f64, z: f64| line.a * r + line.c * z + line.d;
+    let eye = path.arc(0)?;
+    // The value at the end of one arc, which is that at the start of the next.
+    let mut start = side(eye.r0, eye.z0);
+    // A curve that starts on the line leaves it, and may come back.
+    let mut leaves = range.leaves || start.abs() <= range.from;
     let mut i = 0;
-    while let Some(&arc) = path.arc(i) {
-        if arc.r0 > range.to {
+    loop {
+        for arc in &path.arcs()[i..] {
+            if arc.r0 > range.to {
+                return None;
+            }
+            let end = side(arc.r1, arc.z1);
+            let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
+            let width = arc.r1 - arc.r0;
+            let root = if leaves {
+                let again = -q.b / q.a;
+                (0.0 < again && again <= width).then_some(again)
+            } else if q.keeps_its_sign(0.0, width, start, end) {
+                None
+            } else {
+                q.first_root(0.0, width, start, end)
+            };
+            if let Some(x) = root {
+                let r = arc.r0 + x;
+                return (r <= range.to).then_some(r);
+            }
+            (start, leaves) = (end, false);
+        }
+        i = path.arcs().len();
+        if !path.more() {
             return None;
         }
-        let (start, end) = (side(arc.r0, arc.z0), side(arc.r1, arc.z1));
-        // A curve that starts on the line leaves it, and may come back.
-        let leaves = i == 0 && (range.leaves || start.abs() <= range.from);
-        let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
-        let width = arc.r1 - arc.r0;
-        let root = if leaves {
-            let again = -q.b / q.a;
-            (0.0 < again && again <= width).then_some(again)
-        } else {
-            q.first_root(0.0, width, start, end)
-        };
-        if let Some(x) = root {
-            let r = arc.r0 + x;
-            return (r <= range.to).then_some(r);
-        }
-        i += 1;
     }
-    None
 }
 
-/// Distance at which the curve first meets a segment.
+/// Distance at which the curve first meets a segment. The range's hint becomes the arc above the segment's start.
 #[inline]
-pub fn meet_segment(path: &mut Path, segment: &Segment, range: &Range) -> Option<f64> {
+pub fn meet_segment(path: &mut Path, segment: &Segment, range: &mut Range) -> Option<f64> {
     let (start, step) = (segment.start, segment.end - segment.start);
     if segment.end.x < 0.0 || start.x > range.to {
         return None;
     }
     let mut i = path.find(start.x.max(0.0), range.hint)?;
-    while let Some(&arc) = path.arc(i) {
+    range.hint = i;
+    while let Some(arc) = path.arc(i) {
         if arc.r0 > segment.end.x || arc.r0 > range.to {
             return None;
         }
@@ -153,7 +171,7 @@ pub fn meet_segment(path: &mut Path, segment: &Segment, range: &Range) -> Option
         } else {
             range.from
         };
-        if let Some(r) = arc_meets_segment(&arc, segment, start, step, uncertainty) {
+        if let Some(r) = arc_meets_segment(arc, segment, start, step, uncertainty) {
             return range.holds(r).then_some(r);
         }
         i += 1;
@@ -172,7 +190,7 @@ fn arc_meets_segment(
     uncertainty: f64,
 ) -> Option<f64> {
     let (lower, upper) = if step.y >= 0.0 { (start.y, segment.end.y) } else { (segment.end.y, start.y) };
-    if arc.low > upper || arc.high < lower {
+    if arc.low() > upper || arc.high() < lower {
         return None;
     }
     let starts_before = start.x < arc.r0;
@@ -227,8 +245,8 @@ pub fn meet_circle(path: &mut Path, circle: &Circle, range: &Range) -> Option<f6
         if from > to || from > range.to {
             return None;
         }
-        let high_enough = arc.high >= center.y - radius;
-        if (high_enough && arc.low <= center.y + radius) || !outside {
+        let high_enough = arc.high() >= center.y - radius;
+        if (high_enough && arc.low() <= center.y + radius) || !outside {
             let mut quartic = Quartic::new(&arc, circle);
             if i == 0 && range.leaves {
                 quartic = quartic.without_start();
@@ -451,7 +469,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let segment = Segment { start: DVec2::new(r, z), end: DVec2::new(r + dr, z + dz) };
-            let exact = meet_segment(&mut path, &segment, &Range::whole(hint));
+            let exact = meet_segment(&mut path, &segment, &mut Range::whole(hint));
             if let Some(t) = exact {
                 let arc = *path.arcs().iter().find(|arc| arc.r0 <= t && t <= arc.r1).unwrap();
                 prop_assert!(r - 1e-9 <= t && t <= r + dr + 1e-9);
@@ -460,7 +478,7 @@ mod tests {
                 }
             }
             // By sampling the segment and comparing the sides of its points.
-            while path.arc(path.arcs().len()).is_some() {}
+            path.finish();
             let sides: Vec<f64> = (0..=4000).filter_map(|i| {
                 let s = f64::from(i) / 4000.0;
                 let at = r + s * dr;

@@ -17,7 +17,8 @@ use crate::camera::Size;
 use crate::film::Film;
 use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
-use crate::optics::path::{End, Path};
+use crate::optics::path::Path;
+use crate::optics::tip::End;
 use crate::render::{Settings, Tally};
 use crate::scene;
 use crate::schedule::{Canvas, Tile, Watch, render};
@@ -349,7 +350,7 @@ fn air_around(ir: &Bound<PyAny>, height: f64, finer: usize) -> PyResult<Atmosphe
 
 fn finish(path: &mut Path, height: f64, slope: f64) {
     path.start(height, slope);
-    while path.arc(path.arcs().len()).is_some() {}
+    path.finish();
 }
 
 fn end_name(end: Option<End>) -> &'static str {

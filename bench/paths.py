@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,7 @@ from .result import Aim, Result, alternate, middle, spread
 from .workshop import Workshop
 
 LEAST_OF = 5  # timings of one sample, of which the least counts, on both sides
-ENDS = {"ground": 0, "top": 1, "range": 2, "segments": 3}
+ENDS = np.array(["ground", "top", "range", "segments"])  # by the C tracer's numbers
 
 
 def slopes(ir: SceneIR) -> NDArray[np.float64]:
@@ -65,7 +64,7 @@ def paths(shop: Workshop) -> list[Result]:
         their_rate = len(rays) / middle(other) / 1e6
         note = _agreement(traced[0], np.fromfile(ends).reshape(-1, 4))
     seconds = middle(mine)
-    arcs = sum(traced[0].arcs)
+    arcs = int(traced[0].arcs.sum())
     return [
         Result(
             "paths",
@@ -83,6 +82,6 @@ def paths(shop: Workshop) -> list[Result]:
 def _agreement(ours: optics.Paths, theirs: NDArray[np.float64]) -> str:
     """How far the two tracers' results lie apart."""
     apart = np.abs(np.asarray(ours.end_points) - theirs[:, :2]).max()
-    arcs = np.count_nonzero(np.asarray(ours.arcs) != theirs[:, 2])
-    ends = np.count_nonzero(np.fromiter((ENDS[end] for end in chain(ours.ends)), float) != theirs[:, 3])
+    arcs = np.count_nonzero(ours.arcs != theirs[:, 2])
+    ends = np.count_nonzero(ENDS[theirs[:, 3].astype(int)] != ours.ends)
     return f"the ends differ by at most {apart:.1e} m, {arcs} rays in their number of arcs, {ends} in why they ended"

@@ -9,6 +9,7 @@ from m3d_render.rendering import Request
 from m3dc.ir import SceneIR
 
 VERSION: str
+END_NAMES: list[str]
 LAYERS: list[tuple[str, int]]
 
 class Outcome:
@@ -30,6 +31,6 @@ class Scene:
     ) -> Outcome: ...
 
 def trace_paths(
-    ir: SceneIR, height: float, slopes: list[float], distances: list[float], finer: int
-) -> tuple[list[str], NDArray[np.float64], list[int], NDArray[np.float64]]: ...
+    ir: SceneIR, height: float, slopes: NDArray[np.float64], distances: list[float], finer: int
+) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.uint32], NDArray[np.float64]]: ...
 def trace_crossings(ir: SceneIR, height: float, slope: float, finer: int) -> NDArray[np.float64]: ...

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -27,9 +26,9 @@ class Paths:
     angles: NDArray[np.float64]
     at: NDArray[np.float64]
     heights: NDArray[np.float64]
-    ends: list[str]
+    ends: NDArray[np.str_]
     end_points: NDArray[np.float64]
-    arcs: list[int]
+    arcs: NDArray[np.uint32]
 
 
 def trace_paths(
@@ -44,15 +43,15 @@ def trace_paths(
     `at` are the horizontal distances whose heights are wanted; `finer` divides each interval of the temperature
     profile into so many layers. For every layer crossing of a ray see `trace_crossings`.
     """
-    angles = np.atleast_1d(np.asarray(list(angles_rad), dtype=np.float64))
-    distances = np.asarray([] if at is None else list(at), dtype=np.float64)
+    angles = np.atleast_1d(_numbers(angles_rad))
+    distances = _numbers([] if at is None else at)
     try:
         ends, points, arcs, heights = _kernel.trace_paths(
-            ir, _height(ir, eye_height), [math.tan(angle) for angle in angles], distances.tolist(), finer
+            ir, _height(ir, eye_height), np.tan(angles), distances.tolist(), finer
         )
     except ValueError as error:
         raise SceneError(str(error)) from None
-    return Paths(angles, distances, heights, ends, points, arcs)
+    return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], points, arcs)
 
 
 def trace_crossings(
@@ -60,9 +59,13 @@ def trace_crossings(
 ) -> NDArray[np.float64]:
     """Every layer crossing of one ray: rows of (distance, height), the eye first and the end last."""
     try:
-        return _kernel.trace_crossings(ir, _height(ir, eye_height), math.tan(angle_rad), finer)
+        return _kernel.trace_crossings(ir, _height(ir, eye_height), float(np.tan(angle_rad)), finer)
     except ValueError as error:
         raise SceneError(str(error)) from None
+
+
+def _numbers(values: Iterable[float]) -> NDArray[np.float64]:
+    return np.asarray(values if isinstance(values, np.ndarray) else list(values), dtype=np.float64)
 
 
 def _height(ir: SceneIR, eye_height: float | None) -> float:

@@ -11,6 +11,7 @@ use crate::film::Film;
 use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
 use crate::optics::path::Path;
+use crate::optics::tip::Tip;
 use crate::random::Place;
 use crate::ray::{Hit, Ray, ShapeId};
 use crate::scene::{Background, Owner, Scene};
@@ -282,7 +283,7 @@ impl<'a> Tracer<'a> {
         path.finish();
         let arcs = path.arcs().len();
         self.tally.arcs += arcs as u64;
-        let (r, z, slope) = path.tip();
+        let Tip { r, z, slope, .. } = path.tip();
         let travelled = length(path, f64::INFINITY);
         let tangent = DVec3::new(radial.x, radial.y, slope);
         let mut ray = Ray::new(plane.point(r, z), tangent.normalize());

@@ -117,7 +117,7 @@ def test_crossings_follow_the_path():
 
 def test_why_paths_end():
     ir = merman_air()
-    ends = trace_paths(ir, np.radians([-1, 1, 0])).ends
+    ends = trace_paths(ir, np.radians([-1, 1, 0])).ends.tolist()
     assert ends[:2] == ["ground", "top"]
     low = SceneBuilder(eye=(0, 0, EYE), target=(-1, 0, EYE)).mirage(MERMAN_PROFILE, elevation=3.0, distance=80.0)
     steep, level = trace_paths(low.build(), np.radians([1, 0.01])).end_points
@@ -125,7 +125,7 @@ def test_why_paths_end():
     assert level[0] == 80.0
     few = SceneBuilder(eye=(0, 0, EYE), target=(-1, 0, EYE)).mirage(MERMAN_PROFILE, segments=3)
     paths = trace_paths(few.build(), [math.radians(-1)])
-    assert (paths.ends, paths.arcs) == (["segments"], [3])
+    assert (paths.ends.tolist(), paths.arcs.tolist()) == (["segments"], [3])
 
 
 def test_what_cannot_be_traced_is_said():

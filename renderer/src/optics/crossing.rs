@@ -538,7 +538,7 @@ mod tests {
         for i in 1..1000 {
             path.start(2.1, -f64::from(i) * 1e-4 - 6e-3);
             let r = meet_line(&mut path, &ground, &Range::whole(0));
-            assert_eq!(r.is_some(), path.tip().1 == 0.0, "slope {i}");
+            assert_eq!(r.is_some(), path.tip().z == 0.0, "slope {i}");
         }
     }
 }

@@ -63,9 +63,9 @@ impl<'a> Path<'a> {
         self.tip.end
     }
 
-    /// Where the last arc made so far ends: r, z and slope.
-    pub fn tip(&self) -> (f64, f64, f64) {
-        (self.tip.r, self.tip.z, self.tip.slope)
+    /// Where the last arc made so far ends.
+    pub fn tip(&self) -> Tip {
+        self.tip
     }
 
     /// Beyond this the curve does not go.
@@ -211,10 +211,10 @@ mod tests {
         path.start(0.5, 0.01);
         path.finish();
         assert_eq!(path.end(), Some(End::Top));
-        assert!((path.tip().0 - 250.0).abs() < 1e-9);
+        assert!((path.tip().r - 250.0).abs() < 1e-9);
         path.start(0.5, 0.0);
         path.finish();
-        assert_eq!((path.end(), path.tip().0), (Some(End::Range), 10_000.0));
+        assert_eq!((path.end(), path.tip().r), (Some(End::Range), 10_000.0));
         path.start(0.0, -1.0);
         path.finish();
         assert_eq!((path.end(), path.arcs().len()), (Some(End::Ground), 0));

@@ -72,6 +72,19 @@ impl Tip {
         }
     }
 
+    /// Follows the curve to where it ends, and gives the number of its arcs.
+    pub fn follow_to_end(&mut self, air: &Atmosphere) -> usize {
+        let mut arcs = 0;
+        let mut tip = *self;
+        tip.follow(air, air.segments, |_| {
+            arcs += 1;
+            true
+        });
+        tip.end = tip.end.or(Some(End::Segments));
+        *self = tip;
+        arcs
+    }
+
     /// Follows the curve from a boundary through whole layers, which is most of the work, until it is about to turn,
     /// to be level, to go beyond the distance limit or to leave the layers: the same arcs as `step` makes. False
     /// once `keep` wants no more.

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,7 +18,7 @@ use crate::film::Film;
 use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
 use crate::optics::path::Path;
-use crate::optics::tip::End;
+use crate::optics::tip::{End, Tip};
 use crate::render::{Settings, Tally};
 use crate::scene;
 use crate::schedule::{Canvas, Tile, Watch, render};
@@ -27,7 +27,12 @@ use crate::schedule::{Canvas, Tile, Watch, render};
 const LOOK: Duration = Duration::from_millis(40);
 
 /// Ray paths: why each ended, where, of how many arcs, and its heights.
-type Paths<'py> = (Vec<&'static str>, Bound<'py, PyArray2<f64>>, Vec<usize>, Bound<'py, PyArray2<f64>>);
+type Paths<'py> = (
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<u32>>,
+    Bound<'py, PyArray2<f64>>,
+);
 
 /// `m3d_render.rendering.Request`: what is asked of a picture.
 #[derive(FromPyObject)]
@@ -281,29 +286,38 @@ impl Drop for Ringer<'_> {
     }
 }
 
-/// Ray paths without a picture: for each slope dz/dr from `height`, why the path ended ("ground", "top", "range",
-/// "segments"), where (r, z), how many arcs it has, and its heights at the given distances, NaN beyond the end.
+/// Ray paths without a picture: for each slope dz/dr from `height`, why the path ended (a number of `END_NAMES`),
+/// where (r, z), how many arcs it has, and its heights at the given distances, NaN beyond the end.
 #[pyfunction]
 fn trace_paths<'py>(
     py: Python<'py>,
     ir: &Bound<'py, PyAny>,
     height: f64,
-    slopes: Vec<f64>,
+    slopes: PyReadonlyArray1<'py, f64>,
     distances: Vec<f64>,
     finer: usize,
 ) -> PyResult<Paths<'py>> {
     let air = air_around(ir, height, finer)?;
-    let mut path = Path::new(&air);
+    let slopes = slopes.as_array();
     let mut ends = Vec::with_capacity(slopes.len());
     let mut tips = Vec::with_capacity(2 * slopes.len());
     let mut arcs = Vec::with_capacity(slopes.len());
     let mut heights = Vec::with_capacity(slopes.len() * distances.len());
-    for &slope in &slopes {
-        finish(&mut path, height, slope);
-        ends.push(end_name(path.end()));
-        let (r, z, _) = path.tip();
-        tips.extend([r, z]);
-        arcs.push(path.arcs().len());
+    let mut path = Path::new(&air);
+    for &slope in slopes {
+        let (tip, count) = if distances.is_empty() {
+            // Arcs that nobody looks at need not be kept.
+            let mut tip = Tip::new(&air, height, slope);
+            let count = tip.follow_to_end(&air);
+            (tip, count)
+        } else {
+            path.start(height, slope);
+            path.finish();
+            (path.tip(), path.arcs().len())
+        };
+        ends.push(end_number(tip.end));
+        tips.extend([tip.r, tip.z]);
+        arcs.push(count as u32);
         let mut arc = 0;
         for &distance in &distances {
             let found = path.find(distance, arc).filter(|_| distance >= 0.0);
@@ -313,7 +327,7 @@ fn trace_paths<'py>(
     }
     let tips = PyArray1::from_vec(py, tips).reshape([slopes.len(), 2])?;
     let heights = PyArray1::from_vec(py, heights).reshape([slopes.len(), distances.len()])?;
-    Ok((ends, tips, arcs, heights))
+    Ok((PyArray1::from_vec(py, ends), tips, PyArray1::from_vec(py, arcs), heights))
 }
 
 /// Every layer crossing of one path: an array of rows (r, z), the eye first and the end last.
@@ -327,7 +341,8 @@ fn trace_crossings<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let air = air_around(ir, height, finer)?;
     let mut path = Path::new(&air);
-    finish(&mut path, height, slope);
+    path.start(height, slope);
+    path.finish();
     let mut points = vec![0.0, height];
     points.extend(path.arcs().iter().flat_map(|arc| [arc.r1, arc.z1]));
     let rows = points.len() / 2;
@@ -348,17 +363,15 @@ fn air_around(ir: &Bound<PyAny>, height: f64, finer: usize) -> PyResult<Atmosphe
     }
 }
 
-fn finish(path: &mut Path, height: f64, slope: f64) {
-    path.start(height, slope);
-    path.finish();
-}
+/// Why a path may end.
+const END_NAMES: [&str; 4] = ["ground", "top", "range", "segments"];
 
-fn end_name(end: Option<End>) -> &'static str {
+fn end_number(end: Option<End>) -> u8 {
     match end {
-        Some(End::Ground) => "ground",
-        Some(End::Top) => "top",
-        Some(End::Range) => "range",
-        Some(End::Segments) | None => "segments",
+        Some(End::Ground) => 0,
+        Some(End::Top) => 1,
+        Some(End::Range) => 2,
+        Some(End::Segments) | None => 3,
     }
 }
 
@@ -367,6 +380,7 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
     module.add_function(wrap_pyfunction!(trace_paths, module)?)?;
     module.add_function(wrap_pyfunction!(trace_crossings, module)?)?;
+    module.add("END_NAMES", END_NAMES.to_vec())?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
     module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())
 }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from collections.abc import Generator
 from pathlib import Path
 
@@ -34,6 +33,8 @@ def replacing(*targets: Path) -> Generator[list[Path]]:
 
 def _beside(target: Path) -> Path:
     """A new empty file in the target's folder, with the target's suffix, and its or the usual permissions."""
+    import tempfile  # here, because a dump to the screen should not wait for it
+
     descriptor, name = tempfile.mkstemp(prefix=f".{target.stem[:100]}-", suffix=target.suffix, dir=target.parent)
     os.close(descriptor)
     mask = os.umask(0)

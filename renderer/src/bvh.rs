@@ -5,12 +5,13 @@
 //! tests against them are widened by their own rounding error, so that no box that a ray touches is missed; what is
 //! in the leaves is tested in f64.
 
-use std::time::Duration;
-
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::{Boundable, BvhBuildParams};
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::{PlocBuilder, SortPrecision};
 use wide::f32x4;
 
 use crate::ray::ShapeId;
@@ -41,22 +42,30 @@ pub struct Item {
     pub corners: [u32; 3],
 }
 
-/// A shape's bounds, widened to f32. None where a coordinate is not a number or too large for the tree.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    low: [f32; 3],
-    high: [f32; 3],
+/// Shapes on their way into a tree. Their boxes are already the builder's leaves: of a million shapes every copy
+/// counts.
+#[derive(Default)]
+pub struct Gathering {
+    shapes: Vec<ShapeId>,
+    leaves: Vec<Bvh2Node>,
+    whole: Option<Aabb>,
+    unbounded: Vec<ShapeId>,
 }
 
-impl Boundable for Bounds {
-    fn aabb(&self) -> Aabb {
-        Aabb::new(Vec3A::from(self.low), Vec3A::from(self.high))
+impl Gathering {
+    /// Room for so many shapes, of which the system gives what is written to.
+    pub fn reserve(&mut self, shapes: usize) {
+        self.shapes.reserve_exact(shapes);
+        self.leaves.reserve_exact(shapes);
     }
-}
 
-impl Bounds {
-    pub fn of(low: DVec3, high: DVec3) -> Option<Self> {
+    /// Adds a shape between two corners of its box. One whose box has a coordinate that is not a number or is too
+    /// large for the tree will be tested by itself.
+    pub fn add(&mut self, shape: ShapeId, low: DVec3, high: DVec3) {
         let within = low.min_element() >= -LARGEST_COORDINATE && high.max_element() <= LARGEST_COORDINATE;
+        if !within {
+            return self.add_unbounded(shape);
+        }
         let down = |x: f64| {
             let rounded = x as f32;
             if f64::from(rounded) > x { rounded.next_down() } else { rounded }
@@ -65,7 +74,14 @@ impl Bounds {
             let rounded = x as f32;
             if f64::from(rounded) < x { rounded.next_up() } else { rounded }
         };
-        within.then(|| Self { low: low.to_array().map(down), high: high.to_array().map(up) })
+        let bounds = Aabb::new(Vec3A::from(low.to_array().map(down)), Vec3A::from(high.to_array().map(up)));
+        self.leaves.push(Bvh2Node::new(bounds, 1, self.shapes.len() as u32));
+        self.whole = Some(self.whole.map_or(bounds, |whole| whole.union(&bounds)));
+        self.shapes.push(shape);
+    }
+
+    pub fn add_unbounded(&mut self, shape: ShapeId) {
+        self.unbounded.push(shape);
     }
 }
 
@@ -90,20 +106,18 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    pub fn build(bounds: Vec<Bounds>, items: Vec<Item>, unbounded: Vec<ShapeId>) -> Self {
-        if bounds.is_empty() {
-            return Self { unbounded, ..Self::default() };
-        }
-        let params = BvhBuildParams {
-            max_prims_per_leaf: 4,
-            collapse_traversal_cost: 2.0,
-            ..BvhBuildParams::fast_build()
+    /// `corners` are a facet's, by its name.
+    pub fn build(gathered: Gathering, corners: impl Fn(ShapeId) -> [u32; 3]) -> Self {
+        let Gathering { shapes, leaves, whole, unbounded } = gathered;
+        let mut tree = Self { unbounded, ..Self::default() };
+        let Some(whole) = whole else {
+            return tree;
         };
-        let mut duration = Duration::ZERO;
-        let binary = build_bvh2(&bounds, params, &mut duration);
-        drop(bounds);
-        let items = binary.primitive_indices.iter().map(|&i| items[i as usize]).collect();
-        let mut tree = Self { items, unbounded, ..Self::default() };
+        let binary = binary_tree(leaves, whole);
+        tree.items = (binary.primitive_indices.iter())
+            .map(|&i| shapes[i as usize])
+            .map(|shape| Item { shape, corners: corners(shape) })
+            .collect();
         let root = binary.nodes[0];
         let (low, high) = (root.min.to_array(), root.max.to_array());
         for axis in 0..3 {
@@ -114,7 +128,7 @@ impl Bvh {
     }
 
     /// Makes nodes of four out of a binary tree: of a node's descendants the largest is opened until there are four.
-    fn fold(&mut self, binary: &[obvhs::bvh2::node::Bvh2Node]) {
+    fn fold(&mut self, binary: &[Bvh2Node]) {
         self.nodes.reserve(binary.len() / 3 + 1);
         // (binary nodes that become one node, where its number is to be written)
         let mut todo: Vec<(u32, Option<(usize, usize)>)> = vec![(0, None)];
@@ -213,6 +227,31 @@ impl Bvh {
             }
         }
     }
+}
+
+/// The library's tree over these leaves: as its `build_bvh2` with its parameters for a fast build, but that the leaves
+/// are ours and that what one step needs is given back before the next.
+fn binary_tree(leaves: Vec<Bvh2Node>, whole: Aabb) -> Bvh2 {
+    const SEARCH_DISTANCE: usize = 6;
+    const QUICK_ROUNDS: usize = 2;
+    const REINSERTED: f32 = 0.02;
+    const MOST_ITEMS: u32 = 4;
+    const TRAVERSAL_COST: f32 = 2.0;
+
+    let mut tree = Bvh2::zeroed(leaves.len());
+    tree.primitive_indices = (0..leaves.len() as u32).collect();
+    let mut builder = PlocBuilder::new();
+    builder.current_nodes = leaves;
+    builder.build_ploc_from_leaves::<SEARCH_DISTANCE, false>(
+        &mut tree,
+        whole,
+        SortPrecision::U64,
+        QUICK_ROUNDS,
+    );
+    drop(builder);
+    ReinsertionOptimizer::default().run(&mut tree, REINSERTED, None);
+    collapse(&mut tree, MOST_ITEMS, TRAVERSAL_COST);
+    tree
 }
 
 /// A box or leaf still to be visited.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::bvh::{Bounds, Bvh, Item};
+use crate::bvh::{Bvh, Gathering};
 use crate::camera::Camera;
 use crate::ray::{ShapeId, ShapeKind};
 use crate::shade::haze::Haze;
@@ -93,6 +93,7 @@ impl Shapes {
     /// Facets by their corners in `vertices`, and the corners' normals in `normals`.
     pub fn push_facets(&mut self, facets: impl Iterator<Item = ([u32; 3], Option<[u32; 3]>)>, part: Part) {
         self.runs.push(Run { first_facet: self.facets.len(), part });
+        self.facets.reserve(facets.size_hint().0);
         for (corners, normals) in facets {
             if let Some(normals) = normals {
                 self.facet_normals.resize(self.facets.len(), FLAT);
@@ -127,8 +128,9 @@ impl Shapes {
         &self.planes[row].0
     }
 
-    pub fn facet(&self, row: usize) -> [u32; 3] {
-        self.facets[row]
+    /// The names of a facet's corners; of no use for another shape.
+    pub fn corners_of(&self, shape: ShapeId) -> [u32; 3] {
+        if shape.kind() == ShapeKind::Facet { self.facets[shape.row()] } else { [0; 3] }
     }
 
     pub fn part(&self, shape: ShapeId) -> Part {
@@ -149,9 +151,13 @@ impl Shapes {
     pub fn trees(&self) -> (Bvh, Bvh) {
         let mut solids = Gathering::default();
         let mut lights = Gathering::default();
-        let mut gather = |part: Part, bounds: Option<(DVec3, DVec3)>, shape, corners| {
+        solids.reserve(self.count());
+        let mut gather = |part: Part, shape, bounds: Option<(DVec3, DVec3)>| {
             let into = if matches!(part.owner, Owner::Solid(_)) { &mut solids } else { &mut lights };
-            into.add(bounds, Item { shape, corners });
+            match bounds {
+                Some((low, high)) => into.add(shape, low, high),
+                None => into.add_unbounded(shape),
+            }
         };
         for (i, run) in self.runs.iter().enumerate() {
             let end = self.runs.get(i + 1).map_or(self.facets.len(), |next| next.first_facet);
@@ -160,7 +166,7 @@ impl Shapes {
                 let area = (a - b).cross(c - b).length_squared();
                 if area > 0.0 && area < f64::INFINITY {
                     let bounds = (a.min(b).min(c), a.max(b).max(c));
-                    gather(run.part, Some(bounds), ShapeId::new(ShapeKind::Facet, row), self.facets[row]);
+                    gather(run.part, ShapeId::new(ShapeKind::Facet, row), Some(bounds));
                 }
             }
         }
@@ -168,7 +174,7 @@ impl Shapes {
             if sphere.center.is_finite() && sphere.radius > 0.0 && sphere.radius < f64::INFINITY {
                 let reach = DVec3::splat(sphere.radius);
                 let bounds = (sphere.center - reach, sphere.center + reach);
-                gather(*part, Some(bounds), ShapeId::new(ShapeKind::Sphere, row), [0; 3]);
+                gather(*part, ShapeId::new(ShapeKind::Sphere, row), Some(bounds));
             }
         }
         for (row, (rectangle, part)) in self.rectangles.iter().enumerate() {
@@ -176,15 +182,16 @@ impl Shapes {
             if area > 0.0 && area < f64::INFINITY && rectangle.point.is_finite() {
                 let [a, b, c, d] = rectangle.corners();
                 let bounds = (a.min(b).min(c).min(d), a.max(b).max(c).max(d));
-                gather(*part, Some(bounds), ShapeId::new(ShapeKind::Rectangle, row), [0; 3]);
+                gather(*part, ShapeId::new(ShapeKind::Rectangle, row), Some(bounds));
             }
         }
         for (row, (plane, part)) in self.planes.iter().enumerate() {
             if plane.point.is_finite() {
-                gather(*part, None, ShapeId::new(ShapeKind::Plane, row), [0; 3]);
+                gather(*part, ShapeId::new(ShapeKind::Plane, row), None);
             }
         }
-        (solids.tree(), lights.tree())
+        let corners = |shape| self.corners_of(shape);
+        (Bvh::build(solids, corners), Bvh::build(lights, corners))
     }
 
     /// The normals of a shape at a point of it, met by a ray of this direction.
@@ -227,30 +234,6 @@ impl Shapes {
                 Some(affine_coordinates(second, third - second, first - second, point))
             }
         }
-    }
-}
-
-/// Shapes on their way into a tree.
-#[derive(Default)]
-struct Gathering {
-    bounds: Vec<Bounds>,
-    items: Vec<Item>,
-    unbounded: Vec<ShapeId>,
-}
-
-impl Gathering {
-    fn add(&mut self, bounds: Option<(DVec3, DVec3)>, item: Item) {
-        match bounds.and_then(|(low, high)| Bounds::of(low, high)) {
-            Some(bounds) => {
-                self.bounds.push(bounds);
-                self.items.push(item);
-            }
-            None => self.unbounded.push(item.shape),
-        }
-    }
-
-    fn tree(self) -> Bvh {
-        Bvh::build(self.bounds, self.items, self.unbounded)
     }
 }
 

@@ -27,10 +27,6 @@ fn meet(shapes: &Shapes, ray: &Ray, shape: ShapeId, corners: [u32; 3]) -> Option
     }
 }
 
-fn corners_of(shapes: &Shapes, shape: ShapeId) -> [u32; 3] {
-    if shape.kind() == ShapeKind::Facet { shapes.facet(shape.row()) } else { [0; 3] }
-}
-
 /// A straight ray's constants for boxes.
 struct Straight {
     slabs: [Slab; 3],
@@ -109,7 +105,7 @@ pub fn nearest(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -
         found: None,
     };
     for &shape in &tree.unbounded {
-        probe.try_shape(shape, corners_of(shapes, shape));
+        probe.try_shape(shape, shapes.corners_of(shape));
     }
     tree.walk(&mut probe, stack);
     probe.found
@@ -146,7 +142,7 @@ impl Probe for Blocker<'_> {
 /// Whether a shape of the tree lies on the ray before its end.
 pub fn blocked(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> bool {
     let blocks =
-        |shape: &ShapeId| meet(shapes, ray, *shape, corners_of(shapes, *shape)).is_some_and(|t| t < ray.to);
+        |shape: &ShapeId| meet(shapes, ray, *shape, shapes.corners_of(*shape)).is_some_and(|t| t < ray.to);
     if tree.unbounded.iter().any(blocks) {
         return true;
     }
@@ -277,7 +273,7 @@ pub fn nearest_on_curve(
     tree.walk(&mut probe, stack);
     // After the tree: a plane is looked for arc by arc, and need not be beyond what is already found.
     for &shape in &tree.unbounded {
-        probe.try_shape(shape, corners_of(shapes, shape));
+        probe.try_shape(shape, shapes.corners_of(shape));
     }
     probe.found
 }
@@ -345,7 +341,7 @@ mod tests {
     fn pierced(shapes: &Shapes, shape: ShapeId, from: DVec3, to: DVec3) -> bool {
         let step = to - from;
         let ray = Ray { to: step.length(), ..Ray::new(from, step.normalize()) };
-        meet(shapes, &ray, shape, corners_of(shapes, shape)).is_some_and(|t| t <= ray.to)
+        meet(shapes, &ray, shape, shapes.corners_of(shape)).is_some_and(|t| t <= ray.to)
     }
 
     proptest! {
@@ -361,7 +357,7 @@ mod tests {
             let found = nearest(&shapes, &tree, &ray, &mut Vec::new());
             let expected = each(&shapes)
                 .into_iter()
-                .filter_map(|shape| Some((meet(&shapes, &ray, shape, corners_of(&shapes, shape))?, shape)))
+                .filter_map(|shape| Some((meet(&shapes, &ray, shape, shapes.corners_of(shape))?, shape)))
                 .min_by(|a, b| a.partial_cmp(b).unwrap());
             prop_assert_eq!(found.map(|hit| (hit.t, hit.shape)), expected);
             let reach = expected.map_or(1e9, |(t, _)| t);

@@ -70,17 +70,17 @@ impl<'py> Table<'py> {
         Ok(array.as_array().iter().copied().collect())
     }
 
-    fn threes<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Vec<[T; 3]>> {
+    fn threes<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Threes<'py, T>> {
         let array: PyReadonlyArray2<T> = self.column(column)?;
-        let array = array.as_array();
-        if array.ncols() != 3 {
+        if array.as_array().ncols() != 3 {
             return Err(damaged(format!("{}.{column} does not have three numbers a row", self.name)));
         }
-        Ok(array.rows().into_iter().map(|row| [row[0], row[1], row[2]]).collect())
+        Ok(Threes(array))
     }
 
     fn vectors(&self, column: &str) -> PyResult<Vec<DVec3>> {
-        Ok(self.threes::<f64>(column)?.into_iter().map(DVec3::from).collect())
+        let threes = self.threes::<f64>(column)?;
+        Ok((0..threes.len()).map(|row| DVec3::from(threes.row(row))).collect())
     }
 
     /// Matrices that act on row vectors become ones that act on columns, as glam has them.
@@ -98,6 +98,20 @@ impl<'py> Table<'py> {
 
     fn entry<'a, T>(&self, column: &'a [T], row: usize) -> PyResult<&'a T> {
         column.get(row).ok_or_else(|| damaged(format!("{} has no row {row}", self.name)))
+    }
+}
+
+/// A column of three numbers a row, where NumPy has it.
+struct Threes<'py, T: Element>(PyReadonlyArray2<'py, T>);
+
+impl<T: Element + Copy> Threes<'_, T> {
+    fn len(&self) -> usize {
+        self.0.as_array().nrows()
+    }
+
+    fn row(&self, i: usize) -> [T; 3] {
+        let array = self.0.as_array();
+        [array[[i, 0]], array[[i, 1]], array[[i, 2]]]
     }
 }
 
@@ -487,8 +501,8 @@ struct Meshes<'py> {
     phong: Vec<bool>,
     first_facet: Vec<i32>,
     facet_count: Vec<i32>,
-    corners: Vec<[i32; 3]>,
-    normals: Vec<[i32; 3]>,
+    corners: Threes<'py, i32>,
+    normals: Threes<'py, i32>,
 }
 
 impl<'py> Meshes<'py> {
@@ -511,16 +525,16 @@ impl<'py> Meshes<'py> {
         let used = rows("facets", first, count, self.corners.len().min(self.normals.len()))?;
         let phong = *self.table.entry(&self.phong, row)?;
         let (vertices, normals) = (shapes.vertices.len(), shapes.normals.len());
-        let exist = |names: &[i32; 3], length: usize| {
+        let exist = |names: [i32; 3], length: usize| {
             names.iter().all(|&name| usize::try_from(name).is_ok_and(|name| name < length))
         };
-        if !self.corners[used.clone()].iter().all(|names| exist(names, vertices)) {
+        if !used.clone().all(|i| exist(self.corners.row(i), vertices)) {
             return Err(damaged("a facet has a corner that does not exist".into()));
         }
         let facets = used.map(|i| {
-            let smooth = phong && exist(&self.normals[i], normals);
+            let smooth = phong && exist(self.normals.row(i), normals);
             let name = |names: [i32; 3]| names.map(|name| name as u32);
-            (name(self.corners[i]), smooth.then(|| name(self.normals[i])))
+            (name(self.corners.row(i)), smooth.then(|| name(self.normals.row(i))))
         });
         shapes.push_facets(facets, part);
         Ok(())

@@ -109,8 +109,8 @@ impl Shapes {
     }
 
     #[inline]
-    pub fn corners(&self, names: [u32; 3]) -> [DVec3; 3] {
-        names.map(|name| self.vertices[name as usize])
+    pub fn corners(&self, names: [u32; 3]) -> [&DVec3; 3] {
+        names.map(|name| &self.vertices[name as usize])
     }
 
     #[inline]
@@ -162,7 +162,7 @@ impl Shapes {
         for (i, run) in self.runs.iter().enumerate() {
             let end = self.runs.get(i + 1).map_or(self.facets.len(), |next| next.first_facet);
             for row in run.first_facet..end {
-                let [a, b, c] = self.corners(self.facets[row]);
+                let [&a, &b, &c] = self.corners(self.facets[row]);
                 let area = (a - b).cross(c - b).length_squared();
                 if area > 0.0 && area < f64::INFINITY {
                     let bounds = (a.min(b).min(c), a.max(b).max(c));
@@ -203,7 +203,7 @@ impl Shapes {
             ShapeKind::Rectangle => self.rectangle(row).normal().normalize_or_zero(),
             ShapeKind::Plane => self.plane(row).normal,
             ShapeKind::Facet => {
-                let [first, second, third] = self.corners(self.facets[row]);
+                let [&first, &second, &third] = self.corners(self.facets[row]);
                 let (u, v) = (third - second, first - second);
                 let names = self.facet_normals.get(row).copied().unwrap_or(FLAT);
                 if names != FLAT {
@@ -230,7 +230,7 @@ impl Shapes {
             ShapeKind::Rectangle => Some(self.rectangle(row).uv(point)),
             ShapeKind::Plane => None,
             ShapeKind::Facet => {
-                let [first, second, third] = self.corners(self.facets[row]);
+                let [&first, &second, &third] = self.corners(self.facets[row]);
                 Some(affine_coordinates(second, third - second, first - second, point))
             }
         }

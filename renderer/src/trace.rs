@@ -21,7 +21,7 @@ fn meet(shapes: &Shapes, ray: &Ray, shape: ShapeId, corners: [u32; 3]) -> Option
         return None;
     }
     match shape.kind() {
-        ShapeKind::Facet => triangle::intersect(&shapes.corners(corners), ray),
+        ShapeKind::Facet => triangle::intersect(shapes.corners(corners), ray),
         ShapeKind::Rectangle => shapes.rectangle(shape.row()).intersect(ray),
         _ => shapes.plane(shape.row()).intersect(ray),
     }
@@ -191,7 +191,7 @@ impl Curved<'_, '_, '_> {
             hint: self.arc,
         };
         let met = match shape.kind() {
-            ShapeKind::Facet => cut(&self.plane, &self.shapes.corners(corners))
+            ShapeKind::Facet => cut(&self.plane, self.shapes.corners(corners))
                 .and_then(|segment| meet_segment(self.path, &segment, &mut range)),
             ShapeKind::Rectangle => self
                 .shapes

@@ -47,8 +47,8 @@ pub struct Segment {
 /// Cuts a convex polygon with a radial plane. An edge is cut where its ends lie on different sides, an end on the
 /// plane counting as on the positive one, and its cut depends on nothing but the edge: neighbours share it exactly.
 #[inline]
-pub fn cut<const N: usize>(plane: &RadialPlane, corners: &[DVec3; N]) -> Option<Segment> {
-    let beside = corners.map(|corner| plane.beside(corner));
+pub fn cut<const N: usize>(plane: &RadialPlane, corners: [&DVec3; N]) -> Option<Segment> {
+    let beside = corners.map(|&corner| plane.beside(corner));
     let mut cuts = [DVec2::ZERO; 2];
     let mut count = 0;
     for i in 0..N {
@@ -59,7 +59,7 @@ pub fn cut<const N: usize>(plane: &RadialPlane, corners: &[DVec3; N]) -> Option<
         let (low, high) = if beside[i] < 0.0 { (i, j) } else { (j, i) };
         let share = beside[low] / (beside[low] - beside[high]);
         let (from, to) = (corners[low], corners[high]);
-        let (r0, r1) = (plane.along(from), plane.along(to));
+        let (r0, r1) = (plane.along(*from), plane.along(*to));
         if count < 2 {
             cuts[count] = DVec2::new(r0 + share * (r1 - r0), from.z + share * (to.z - from.z));
         }

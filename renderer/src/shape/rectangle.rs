@@ -41,7 +41,7 @@ impl Rectangle {
 
     #[inline]
     pub fn cut(&self, plane: &RadialPlane) -> Option<Segment> {
-        cut(plane, &self.corners())
+        cut(plane, self.corners().each_ref())
     }
 
     pub fn uv(&self, point: DVec3) -> (f64, f64) {

@@ -10,8 +10,8 @@ use crate::ray::Ray;
 
 /// Distance along the ray to the triangle with these corners, from either side.
 #[inline]
-pub fn intersect(corners: &[DVec3; 3], ray: &Ray) -> Option<f64> {
-    let [a, b, c] = corners.map(|corner| corner - ray.origin);
+pub fn intersect(corners: [&DVec3; 3], ray: &Ray) -> Option<f64> {
+    let [a, b, c] = corners.map(|&corner| corner - ray.origin);
     let d = ray.direction;
     let along_bc = d.dot(b.cross(c));
     let along_ca = d.dot(c.cross(a));

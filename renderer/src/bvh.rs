@@ -206,18 +206,33 @@ impl Bvh {
                     let node = &self.nodes[visit.child as usize];
                     let near = probe.enter(&node.boxes);
                     let base = stack.len();
+                    let mut nearest: Option<Visit> = None;
                     for (slot, &near) in near.iter().enumerate() {
                         if near < f32::INFINITY {
-                            let next = Visit { near, child: node.child[slot], count: node.count[slot] };
+                            let mut next = Visit { near, child: node.child[slot], count: node.count[slot] };
+                            match &mut nearest {
+                                None => {
+                                    nearest = Some(next);
+                                    continue;
+                                }
+                                Some(nearest) if next.near < nearest.near => {
+                                    std::mem::swap(nearest, &mut next)
+                                }
+                                Some(_) => {}
+                            }
                             // Farthest below, nearest on top.
                             let mut at = stack.len();
                             stack.push(next);
-                            while at > base && stack[at - 1].near < near {
+                            while at > base && stack[at - 1].near < next.near {
                                 stack[at] = stack[at - 1];
                                 at -= 1;
                             }
                             stack[at] = next;
                         }
+                    }
+                    if let Some(nearest) = nearest {
+                        visit = nearest;
+                        continue;
                     }
                 }
             }

@@ -2,31 +2,17 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-from types import ModuleType
-
 import numpy as np
 import OpenImageIO
 import pytest
-
-SCRIPT = Path(__file__).parent.parent / "docs" / "gallery.py"
+from doc_script import load
 
 # Another processor's exp or cos may round another way: a step of 8 bits anywhere, and an edge here and there.
 STEPS = 2
 EDGE_PIXELS = 0.002
 
 
-def load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("gallery", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-GALLERY = load()
+GALLERY = load("gallery")
 
 
 @pytest.mark.parametrize("what", GALLERY.PICTURES, ids=lambda what: what.name)

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-from types import ModuleType
-
 import numpy as np
 import OpenImageIO
 import pytest
+from doc_script import load
 
 import m3dc
 from tree_sitter_m3d.table import LANGUAGE
-
-SCRIPT = Path(__file__).parent.parent / "docs" / "texture_pictures.py"
 
 # Another processor's exp or cos may round another way: a step or two of 8 bits anywhere, and an edge here and there.
 STEPS = 2
@@ -21,16 +16,7 @@ EDGE_PIXELS = 0.005
 MOST_BYTES = 40_000
 
 
-def load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("texture_pictures", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-PICTURES = load()
+PICTURES = load("texture_pictures")
 
 
 def stored(name: str) -> np.ndarray:

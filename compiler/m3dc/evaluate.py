@@ -295,17 +295,18 @@ class Evaluator:
         if keyword == "COLORS" and "COLORS" in record.tables:
             before = record.tables["COLORS"]
             rows = np.vstack([before.rows, value.rows])
-            value = TableValue((), rows, np.concatenate([before.offsets, value.offsets]), value.span)
+            earlier = before.offsets.astype(np.int64) + (before.span[0] - value.span[0])
+            value = TableValue((), rows, np.concatenate([earlier, value.offsets]), value.span)
         record.tables[keyword] = value
         record.mesh = None
 
     def _bulk(self, item: program.Table, data: program.TableData) -> TableValue | None:
         rows = np.asarray(data.rows).reshape(-1, data.width)
-        offsets = np.asarray(data.offsets).astype(np.int64) + (self._findings.base - item.origin)
+        offsets = np.asarray(data.offsets) - np.uint32(item.origin + item.span[0])
         head = self._head(data.head, [item.span] * len(data.head))
         if head is None:
             return None
-        return TableValue(head, rows, offsets.astype(np.uint32), self._findings.absolute(item.span))
+        return TableValue(head, rows, offsets, self._findings.absolute(item.span))
 
     def _written_out(self, item: program.Table) -> TableValue | None:
         """A table with variables in it."""
@@ -317,7 +318,7 @@ class Evaluator:
             for row in item.rows
         ]
         width = sum(3 if a.shape == "vector" else 1 for a in item.entry.row)
-        offsets = np.array([row[0].span[0] + self._findings.base for row in item.rows], np.uint32)
+        offsets = np.array([row[0].span[0] - item.span[0] for row in item.rows], np.uint32)
         return TableValue(head, np.array(rows, float).reshape(-1, width), offsets, self._findings.absolute(item.span))
 
     def _head(self, values: Sequence[float | Vector], spans: list[Span]) -> tuple[int, ...] | None:
@@ -353,18 +354,17 @@ class Evaluator:
             outside = np.flatnonzero((below | above).any(axis=1))
             shown = ", ".join(f"{n:g}" for n in part[outside[0]])
             if bounds.policy == "error":
-                self._row_error("M3D0401", value, outside[0], f"found {shown}", fill=bounds.message)
+                self._row_error("M3D0401", value, int(outside[0]), f"found {shown}", fill=bounds.message)
                 return None
             detail = f"{shown} is set to the nearest limit"
-            self._row_error("M3D0422", value, outside[0], detail, fill=bounds.message)
+            self._row_error("M3D0422", value, int(outside[0]), detail, fill=bounds.message)
             rows = value.rows.copy()
             rows[:, columns] = part.clip(low, high)
             value = value._replace(rows=rows)
         return value
 
     def _row_error(self, code: str, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
-        at = int(value.offsets[row]) - self._findings.base
-        self._findings.add(code, (at, at + 1), detail, fill=fill)
+        self._findings.add_at(code, value.place(row), detail, fill=fill)
 
 
 # The tables that may not stand beside another, or itself, in one POLYGONS or TERRAIN (thesis 7.5.5.3).

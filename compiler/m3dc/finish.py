@@ -81,14 +81,12 @@ def _mirage(record: Record, findings: Findings, *, whole: bool) -> None:
     if points < least:
         findings.add_at("M3D0410", profile.span, f"found {points}")
     elif points > most:
-        at = int(profile.offsets[most])
-        findings.add_at("M3D0412", (at, at + 1), f"found {points}, at most {most}", fill="PROFILE points")
+        findings.add_at("M3D0412", profile.place(most), f"found {points}, at most {most}", fill="PROFILE points")
     falling = np.flatnonzero(np.diff(elevation) <= 0)
     if falling.size:
         row = int(falling[0]) + 1
-        at = int(profile.offsets[row])
         detail = f"{elevation[row]:g} comes after {elevation[row - 1]:g}; they go from low to high"
-        findings.add_at("M3D0411", (at, at + 1), detail)
+        findings.add_at("M3D0411", profile.place(row), detail)
     if points < least or points > most or falling.size:
         record.broken |= {"PROFILE"}
 
@@ -99,13 +97,12 @@ def _texture(record: Record, findings: Findings, *, whole: bool) -> None:
         return
     most = LANGUAGE.limits["color_ranges"]
     if len(colors.rows) > most:
-        at = int(colors.offsets[most])
-        findings.add_at("M3D0412", (at, at + 1), f"found {len(colors.rows)}, at most {most}", fill="color ranges")
+        findings.add_at("M3D0412", colors.place(most), f"found {len(colors.rows)}, at most {most}", fill="color ranges")
     previous = 0.0
-    for (start, end), offset in zip(colors.rows[:, :2].tolist(), colors.offsets.tolist(), strict=True):
+    for row, (start, end) in enumerate(colors.rows[:, :2].tolist()):
         if not previous <= start < end <= 1.0:
             detail = f"the range {start:g} to {end:g} must run upwards from {previous:g} or more to at most 1"
-            findings.add_at("M3D0413", (offset, offset + 1), detail)
+            findings.add_at("M3D0413", colors.place(row), detail)
             return
         previous = end
 

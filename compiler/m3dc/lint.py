@@ -84,9 +84,8 @@ def _unused_vertices(world: World, findings: Findings) -> None:
         unused = np.flatnonzero(~used)
         if unused.size:
             vertices = record.tables["VERTICES"]
-            at = int(vertices.offsets[unused[0]])
             others = f" and {unused.size - 1} more" if unused.size > 1 else ""
-            findings.add_at("M3D0510", (at, at + 1), f"vertex {unused[0]}{others}")
+            findings.add_at("M3D0510", vertices.place(int(unused[0])), f"vertex {unused[0]}{others}")
 
 
 def _wrong_side(world: World, findings: Findings) -> None:
@@ -100,9 +99,8 @@ def _wrong_side(world: World, findings: Findings) -> None:
         against = (np.einsum("ij,ikj->ik", facing, mesh.normals[mesh.normal_rows]) < 0).any(axis=1)
         wrong = np.flatnonzero(against)
         if wrong.size:
-            at = int(mesh.offsets[wrong[0]])
             others = f" and {wrong.size - 1} more" if wrong.size > 1 else ""
-            findings.add_at("M3D0511", (at, at + 1), f"facet {wrong[0]}{others}")
+            findings.add_at("M3D0511", mesh.place(int(wrong[0])), f"facet {wrong[0]}{others}")
 
 
 def _light_reaches_nothing(world: World, findings: Findings) -> None:

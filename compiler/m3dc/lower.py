@@ -73,7 +73,7 @@ def lower(world: World, source: str) -> ir.SceneIR:
     mirage = world.scene.nested.get("MIRAGE")
     profile = mirage.tables.get("PROFILE") if mirage is not None else None
     if profile is not None and len(profile.rows):
-        starts = profile.offsets.astype(np.int64)
+        starts = profile.offsets.astype(np.int64) + profile.span[0]
         rows.extend(
             "profile",
             elevation=profile.rows[:, 0],
@@ -178,14 +178,14 @@ def _texture(rows: _Rows, record: Record) -> None:
     first_range, first_wave = rows.count("color_ranges"), rows.count("waves")
     colors = record.tables.get("COLORS")
     if colors is not None:
-        for (start, end, *pair), offset in zip(colors.rows.tolist(), colors.offsets.tolist(), strict=True):
+        for row, (start, end, *pair) in enumerate(colors.rows.tolist()):
             rows.add(
                 "color_ranges",
                 start=start,
                 end=end,
                 start_color=pair[:3],
                 end_color=pair[3:],
-                span=(offset, colors.span[1]),
+                span=(colors.place(row)[0], colors.span[1]),
             )
     for wave in record.parts:
         rows.add(
@@ -277,7 +277,10 @@ def _mesh(rows: _Rows, record: Record, transform: Transform) -> int:
         first_normal = rows.extend("normals", direction=unit(transform.normals(mesh.normals)))
         normal_rows = mesh.normal_rows + np.int32(first_normal)
     first_facet = rows.extend(
-        "facets", vertex=mesh.facets + np.int32(first_vertex), normal=normal_rows, offset=mesh.offsets
+        "facets",
+        vertex=mesh.facets + np.int32(first_vertex),
+        normal=normal_rows,
+        offset=mesh.offsets + np.uint32(mesh.origin),
     )
     return rows.add(
         "meshes",

@@ -16,7 +16,7 @@ PIECE = 1 << 13
 COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
 
 _NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
-_BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32))
+_BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32), 0)
 
 
 Columns: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
@@ -71,8 +71,7 @@ def _counted(table: TableValue, count: int, keyword: str, findings: Findings) ->
     """Whether a table has as many rows as it says."""
     rows = len(table.rows)
     if rows > count:
-        at = int(table.offsets[max(count, 0)])
-        findings.add_at("M3D0405", (at, at + 1), f"{count} specified, {rows} found", fill=keyword)
+        findings.add_at("M3D0405", table.place(max(count, 0)), f"{count} specified, {rows} found", fill=keyword)
     elif rows < count:
         end = table.span[1]
         findings.add_at("M3D0406", (end - 1, end), f"{count} specified, {rows} found", fill=keyword)
@@ -85,19 +84,17 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
     last = len(positions) - 1
     if not (indices.min() > -1 and indices.max() < last + 1):
         undefined = np.flatnonzero(((indices <= -1) | (indices >= last + 1)).any(axis=1))
-        for row in undefined[:MOST_REPORTED]:
-            at = int(facets.offsets[row])
+        for row in undefined[:MOST_REPORTED].tolist():
             shown = " ".join(f"{i:g}" for i in indices[row])
             detail = f"facet {row} uses {shown}; vertices are numbered 0 to {last}"
-            findings.add_at("M3D0305", (at, at + 1), detail)
+            findings.add_at("M3D0305", facets.place(row), detail)
         return None
     corners = indices.astype(np.int32)
     flat = _flat_facets(positions, corners)
     if flat.size:
-        for row in flat[:MOST_REPORTED]:
-            at = int(facets.offsets[row])
+        for row in flat[:MOST_REPORTED].tolist():
             detail = f"the corners of facet {row} lie on a line; three points not on a line make a triangle"
-            findings.add_at("M3D0403", (at, at + 1), detail)
+            findings.add_at("M3D0403", facets.place(row), detail)
         return None
     normals, normal_rows = _NO_NORMALS
     if facets.rows.shape[1] > 3:
@@ -105,12 +102,11 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
         zero = ~normals.any(axis=1)
         if zero.any():
             row = int(np.flatnonzero(zero)[0]) // 3
-            at = int(facets.offsets[row])
-            findings.add_at("M3D0404", (at, at + 1), f"a normal of facet {row} is zero")
+            findings.add_at("M3D0404", facets.place(row), f"a normal of facet {row} is zero")
             return None
         normals = unit(normals)
         normal_rows = np.arange(len(normals), dtype=np.int32).reshape(-1, 3)
-    return Mesh(positions, corners, normals, normal_rows, facets.offsets)
+    return Mesh(positions, corners, normals, normal_rows, facets.offsets, facets.span[0])
 
 
 def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
@@ -142,9 +138,8 @@ def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mes
     folded, upwards = next((view for view in seen if not view[0].any()), seen[0])
     if folded.any():
         row, column = (int(i) for i in np.argwhere(folded)[0])
-        at = int(table.offsets[row * columns + column])
         detail = f"the cell at row {row + 1}, column {column + 1} folds over another"
-        findings.add_at("M3D0409", (at, at + 1), detail)
+        findings.add_at("M3D0409", table.place(row * columns + column), detail)
         return None
     number = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     na, nb, nc, nd = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
@@ -153,7 +148,7 @@ def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mes
     facets = np.stack([np.stack([na, nb, nc], -1), np.stack([na, nc, nd], -1)], axis=2).reshape(-1, 3)
     normals = unit(np.cross(_along(grid, 0), _along(grid, 1)) * upwards).reshape(-1, 3)
     offsets = np.repeat(table.offsets[na.ravel()], 2)
-    return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets)
+    return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets, table.span[0])
 
 
 def _folded(areas: NDArray[np.float64]) -> tuple[NDArray[np.bool_], float]:

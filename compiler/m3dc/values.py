@@ -17,26 +17,38 @@ Value: TypeAlias = "float | Vector | Record"
 
 
 class TableValue(NamedTuple):
-    """The numbers of a table: `rows` (n, width) as written, with the byte of the source each row starts at."""
+    """The numbers of a table: `rows` (n, width) as written; `offsets` (n) is how far after the beginning of `span`
+    each row starts."""
 
     head: tuple[int, ...]
     rows: NDArray[np.float64]
-    offsets: NDArray[np.uint32]
+    offsets: NDArray[np.uint32 | np.int64]
     span: Span
+
+    def place(self, row: int) -> Span:
+        """Where a row begins."""
+        at = self.span[0] + int(self.offsets[row])
+        return at, at + 1
 
 
 class Mesh(NamedTuple):
     """Triangular facets between vertices, in the primitive's own coordinates.
 
     `facets` (m, 3) are rows of `vertices` (n, 3); `normals` (k, 3) unit vectors at the corners that `normal_rows`
-    (m, 3) name, both empty for flat facets; `offsets` (m) the byte of the source that each facet is written at.
+    (m, 3) name, both empty for flat facets; `offsets` (m) is how far after `origin` each facet is written.
     """
 
     vertices: NDArray[np.float64]
     facets: NDArray[np.int32]
     normals: NDArray[np.float64]
     normal_rows: NDArray[np.int32]
-    offsets: NDArray[np.uint32]
+    offsets: NDArray[np.uint32 | np.int64]
+    origin: int
+
+    def place(self, facet: int) -> Span:
+        """Where a facet is written."""
+        at = self.origin + int(self.offsets[facet])
+        return at, at + 1
 
 
 class Record:

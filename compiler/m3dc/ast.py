@@ -98,7 +98,8 @@ Item: TypeAlias = Statement | Table | Block | Variables | Assignment
 
 
 class TopLevel(NamedTuple):
-    """One item of the file, and the byte it starts at."""
+    """One item of the file, and the byte it starts at; its places count from `base` (see places.py)."""
 
     start: int
+    base: int
     item: Item

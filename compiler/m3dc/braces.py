@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 _TOKEN = re.compile(r"[{}]|[^\s{}]+")
+_LINE = re.compile(r"\S(?:.*\S)?")
 
 
 class BraceFault(NamedTuple):
@@ -49,10 +50,11 @@ def brace_faults(text: str) -> list[BraceFault]:
 
 
 def _tokens(text: str) -> Iterator[_Token]:
+    """The tokens of a text; those of a line without a brace as a single one."""
     offset = 0
     for number, line in enumerate(text.split("\n")):
         indent = -1
-        for match in _TOKEN.finditer(line):
+        for match in (_TOKEN if "{" in line or "}" in line else _LINE).finditer(line):
             first = indent < 0
             if first:
                 indent = len(line[: match.start()].expandtabs())

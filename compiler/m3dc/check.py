@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
+from functools import partial
+from typing import NamedTuple
 
 from tree_sitter_m3d import Stop, read_table
 from tree_sitter_m3d import table as language
@@ -17,6 +19,7 @@ from tree_sitter_m3d.table import LANGUAGE
 from . import ast, program
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
+from .memo import Ledger, Steps
 from .source import Source
 
 # The members of every block that is a variable type: what the body of an assignment may hold when the type of its
@@ -40,6 +43,18 @@ _NONE: frozenset[str] = frozenset()
 _SHAPE_CODE = {"vector": "M3D0102", "number": "M3D0103", "integer": "M3D0103"}
 
 
+class Known(NamedTuple):
+    """What is known of a variable, or, by its keyword, of a block that a file has once: its type, where it is declared,
+    and what was done with it. A number or vector is `unknown` when its last assignment was wrong: no more is said of
+    it."""
+
+    type: str
+    place: Span
+    assigned: bool = False
+    used: bool = False
+    unknown: bool = False
+
+
 class Checker:
     """Walks the items of one scene in file order. With `names=False` it checks form alone: that is what the formal
     grammar can tell, which knows no declarations."""
@@ -48,21 +63,16 @@ class Checker:
         self._data = source.data
         self._findings = findings
         self._names = names
-        self._base = 0
-        self._types: dict[str, str] = {}
-        self._declared_at: dict[str, Span] = {}
-        self._assigned: set[str] = set()
-        self._used: set[str] = set()
-        self._once: dict[str, Span] = {}
-        self._unknown: set[str] = set()  # numbers and vectors whose last assignment was wrong: no more is said of them
+        self._start = 0
+        self.known: Ledger[Known] = Ledger()
 
-    def item(self, top: ast.TopLevel) -> program.Item | None:
+    def item(self, top: ast.TopLevel) -> program.Content | None:
         """One top-level item; None where nothing of it can be used."""
-        self._base = self._findings.base = top.start
-        content = self._content(top.item)
-        return None if content is None else program.Item(top.start, content)
+        self._start = top.start
+        self._findings.base = top.base
+        return self._content(top.item)
 
-    def _content(self, item: ast.Item) -> tuple[program.Declaration, ...] | program.Assignment | program.Block | None:
+    def _content(self, item: ast.Item) -> program.Content | None:
         match item:
             case ast.Variables():
                 return self._variables(item)
@@ -78,7 +88,7 @@ class Checker:
 
     def _variables(self, item: ast.Variables) -> tuple[program.Declaration, ...]:
         if self._names:
-            self._only_once("VARIABLES", item.keyword.span, LANGUAGE.variables["once"], self._once)
+            self._only_once("VARIABLES", item.keyword.span, LANGUAGE.variables["once"], None)
         declared: list[program.Declaration] = []
         for declaration in item.declarations:
             type_ = declaration.type.text
@@ -89,76 +99,82 @@ class Checker:
                 self._findings.add("M3D0109", declaration.type.span, f"{type_} is not a type{hint}", fix=fix)
                 continue
             for name in declaration.names:
-                if name.text in self._types and self._names:
-                    first = self._declared_at[name.text]
-                    self._findings.add(
-                        "M3D0201",
-                        name.span,
-                        f"{name.text} is already a {self._types[name.text]}",
-                        related=(Related(first, "first declared here"),),
-                    )
+                before = self.known.get(name.text)
+                if before is not None and self._names:
+                    related = (Related(before.place, "first declared here"),)
+                    detail = f"{name.text} is already a {before.type}"
+                    self._findings.add("M3D0201", name.span, detail, related=related)
                     continue
-                self._types[name.text] = type_
-                self._declared_at[name.text] = self._findings.absolute(name.span)
+                self.known[name.text] = Known(type_, self._findings.absolute(name.span))
                 declared.append(program.Declaration(name, type_))
         return tuple(declared)
 
-    def _only_once(self, keyword: str, span: Span, message: str, seen: dict[str, Span]) -> bool:
-        """Whether this is the first; reports any other."""
-        if keyword in seen:
-            related = (Related(seen[keyword], "the first one is here"),)
-            self._findings.add("M3D0301", span, "only the first one counts", fill=message, related=related)
-            return False
-        seen[keyword] = self._findings.absolute(span)
-        return True
+    def _only_once(self, keyword: str, span: Span, message: str, seen: dict[str, Span] | None) -> bool:
+        """Whether this is the first of what was `seen` in a block, or, without that, in the file; reports any other."""
+        place = self._findings.absolute(span)
+        if seen is None:
+            known = self.known.get(keyword)
+            first = place if known is None else known.place
+            if known is None:
+                self.known[keyword] = Known(keyword, place)
+        else:
+            first = seen.setdefault(keyword, place)
+        if first == place:
+            return True
+        related = (Related(first, "the first one is here"),)
+        self._findings.add("M3D0301", span, "only the first one counts", fill=message, related=related)
+        return False
 
-    def _type_of(self, name: ast.Name) -> str | None:
-        """The declared type; reports an undeclared name."""
-        type_ = self._types.get(name.text)
-        if type_ is None:
-            near = get_close_matches(name.text, self._types, 1, 0.7)
+    def _variables_known(self) -> Iterator[tuple[str, Known]]:
+        return ((name, known) for name, known in self.known.items() if name not in LANGUAGE.keywords)
+
+    def _lookup(self, name: ast.Name) -> Known | None:
+        """What is known of a variable; reports an undeclared name."""
+        known = self.known.get(name.text)
+        if known is None:
+            near = get_close_matches(name.text, [other for other, _ in self._variables_known()], 1, 0.7)
             if near:
                 detail = f"{name.text} is not declared before here; did you mean {near[0]}?"
                 fix = Fix(f"Replace with {near[0]}", name.span, near[0])
             else:
                 detail, fix = f"{name.text} is not declared in a VARIABLES block before here", None
             self._findings.add("M3D0202", name.span, detail, fix=fix)
-        return type_
+        return known
 
     def _has_type(self, name: ast.Name, wanted: str) -> bool:
         if not self._names:
             return True
-        type_ = self._type_of(name)
-        if type_ is None:
+        known = self._lookup(name)
+        if known is None:
             return False
-        if type_ != wanted:
-            related = (Related(self._declared_at[name.text], "declared here"),)
-            detail = f"{name.text} is a {type_}, and a {wanted} is expected"
+        related = (Related(known.place, "declared here"),)
+        if known.type != wanted:
+            detail = f"{name.text} is a {known.type}, and a {wanted} is expected"
             self._findings.add("M3D0203", name.span, detail, related=related)
             return False
-        if name.text not in self._assigned | self._used:
-            related = (Related(self._declared_at[name.text], "declared here"),)
+        if not known.assigned and not known.used:
             self._findings.add("M3D0504", name.span, f"{name.text} still has its default value", related=related)
-        self._used.add(name.text)
+        if not known.used:
+            self.known[name.text] = known._replace(used=True)
         return True
 
     def report_unused(self) -> None:
         """Report the variables that nothing has used, after the last item."""
         self._findings.base = 0
-        for name, place in self._declared_at.items():
-            if name not in self._used:
-                self._findings.add("M3D0503", place, f"nothing uses {name}")
+        for name, known in self._variables_known():
+            if not known.used:
+                self._findings.add("M3D0503", known.place, f"nothing uses {name}")
 
     def _assignment(self, item: ast.Assignment) -> program.Assignment | None:
         if not self._names:
             if item.body is not None:
                 self._members(item.body, ANY_BODY)
             return None
-        target = self._type_of(item.target)
+        known = self._lookup(item.target)
+        target = None if known is None else known.type
         value = item.value
-        self._assigned.add(item.target.text)
-        if target in LANGUAGE.basics:
-            self._unknown.add(item.target.text)
+        if known is not None:
+            self.known[item.target.text] = known._replace(assigned=True, unknown=target in LANGUAGE.basics)
         block = LANGUAGE.blocks.get(target or "")
         body, broken = (None, _NONE) if item.body is None else self._members(item.body, block or ANY_BODY)
         if target is None:
@@ -167,7 +183,7 @@ class Checker:
             if value.text == item.target.text:
                 self._findings.add("M3D0204", value.span, f"{value.text} already has its own value")
                 return None
-            if not self._has_type(value, target) or value.text in self._unknown:
+            if not self._is_usable(value, target):
                 return None
         elif value is not None and not self._fits(value, target):
             return None
@@ -175,7 +191,7 @@ class Checker:
             assert item.body is not None
             self._findings.add("M3D0203", item.body.span, f"{item.target.text} is a {target}, not a structure")
             return None
-        self._unknown.discard(item.target.text)
+        self.known[item.target.text] = self.known[item.target.text]._replace(unknown=False)
         return program.Assignment(item.target, target, value, body, broken, item.span)
 
     def _fits(self, value: ast.Argument, target: str) -> bool:
@@ -198,15 +214,16 @@ class Checker:
 
     def _is_usable(self, name: ast.Name, wanted: str) -> bool:
         """Whether a name can stand for a constant: it has the type, and a value."""
-        return self._has_type(name, wanted) and name.text not in self._unknown
+        known = self.known.get(name.text)
+        return self._has_type(name, wanted) and not (known and known.unknown)
 
     # --- blocks -------------------------------------------------------------------------------------------------
 
     def _block(self, item: ast.Block, entry: language.Block, seen: dict[str, Span]) -> program.Block | None:
         first = True
         if entry.once is not None and self._names:
-            seen = self._once if entry.keyword in LANGUAGE.top else seen
-            first = self._only_once(entry.keyword, item.keyword.span, entry.once, seen)
+            inside = None if entry.keyword in LANGUAGE.top else seen
+            first = self._only_once(entry.keyword, item.keyword.span, entry.once, inside)
         known = item.name is None or self._has_type(item.name, entry.keyword)
         body, broken = ((), _NONE) if item.body is None else self._members(item.body, entry)
         if not first or not known:
@@ -324,14 +341,14 @@ class Checker:
 
     def _bulk_table(self, item: ast.Table, entry: language.Table, bulk: Span) -> program.Table:
         head, row = _layout(entry.head), _layout(entry.row)
-        data = read_table(self._data, bulk[0] + self._base, bulk[1] + self._base, head, row)
+        data = read_table(self._data, bulk[0] + self._start, bulk[1] + self._start, head, row)
         if data.stop is not None:
             self._table_stop(entry, data.stop, item.span[1] - 1)
         broken = data.stop is not None
-        return program.Table(entry, data, self._base, (), (), item.keyword, item.span, broken)
+        return program.Table(entry, data, self._start, (), (), item.keyword, item.span, broken)
 
     def _table_stop(self, entry: language.Table, stop: Stop, end: int) -> None:
-        start = min(stop.offset - self._base, end)
+        start = min(stop.offset - self._start, end)
         code, fill = _STOP_CODE.get(stop.expected, ("M3D0101", stop.expected))
         self._findings.add(code, (start, start + 1), _table_detail(entry), fill=fill)
 
@@ -410,20 +427,28 @@ _NOT_FORM = {"M3D0110", "M3D0112", "M3D0114"}
 
 
 def check(
-    source: Source, items: Iterable[ast.TopLevel], faulty: frozenset[int], findings: Findings
+    source: Source,
+    items: Iterable[ast.TopLevel],
+    faulty: frozenset[int],
+    findings: Findings,
+    steps: Steps | None = None,
 ) -> Iterator[program.Item]:
     """All items of a scene in file order, each checked when it is asked for.
 
-    In a faulty item only what is certain is reported: nothing but its names.
+    In a faulty item only what is certain is reported: nothing but its names. With the `steps` of a run before, an item
+    is checked only if it or what is known of its names has changed.
     """
     checker = Checker(source, findings)
     for item in items:
         before = len(findings.found)
-        result = checker.item(item)
+        if steps is None:
+            content = checker.item(item)
+        else:
+            content = steps.do(item.base, item.item, partial(checker.item, item), findings, checker.known)
         if item.start in faulty:
             del findings.found[before:]
-        if result is not None:
-            yield result
+        if content is not None:
+            yield program.Item(item.start, item.base, content)
     if not faulty:
         checker.report_unused()
     findings.base = 0

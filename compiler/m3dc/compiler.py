@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from .check import check
@@ -11,6 +12,7 @@ from .evaluate import Evaluator
 from .ir import SceneIR
 from .lint import lint
 from .lower import lower
+from .places import Places
 from .source import Source
 from .syntax import parse
 
@@ -25,7 +27,7 @@ class Result(NamedTuple):
     @property
     def ok(self) -> bool:
         """Whether the IR is complete: no diagnostic is an error."""
-        return all(diagnostic.severity != "error" for diagnostic in self.diagnostics)
+        return not has_errors(self.diagnostics)
 
 
 def compile(source: str | bytes | Source, name: str = "") -> Result:
@@ -36,8 +38,18 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     syntax = parse(source, findings)
     program = check(source, syntax.items, syntax.faulty, findings)
     world = Evaluator(findings).run(program, syntax.faulty)
-    ir = lower(world, source.name)
-    if not any(diagnostic.severity == "error" for diagnostic in findings.found):
+    ir = lower(world, source.name, Places())
+    if not has_errors(findings.found):
         lint(world, findings)
-    found = sorted(dict.fromkeys(findings.found), key=lambda diagnostic: diagnostic.span)
-    return Result(ir, tuple(without_allowed(found, source)), source)
+    return Result(ir, in_order(findings.found, source), source)
+
+
+def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
+    """Whether a diagnostic is an error."""
+    return any(diagnostic.severity == "error" for diagnostic in diagnostics)
+
+
+def in_order(diagnostics: Iterable[Diagnostic], source: Source) -> tuple[Diagnostic, ...]:
+    """Each diagnostic once, in the order of the text, but for those that the text allows."""
+    found = sorted(dict.fromkeys(diagnostics), key=lambda diagnostic: diagnostic.span)
+    return tuple(without_allowed(found, source))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from . import ast, program
 from .diagnostics import Findings
 from .finish import FINISH
 from .ir import Span
+from .memo import Ledger, Steps
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
 from .values import Record, TableValue, Value, Vector
 
@@ -29,13 +31,23 @@ INTEGER_LIMIT = 2**31 - 1
 _SUBSTITUTED = {"default": "M3D0402", "limit": "M3D0422", "warn": "M3D0423"}
 
 
+class Made(NamedTuple):
+    """What one item adds to a scene: the value that it gives a variable, or records."""
+
+    value: Value | None
+    scene: Record | None
+    solids: tuple[Record, ...]
+    lights: tuple[Record, ...]
+
+
 class World(NamedTuple):
-    """All that a scene adds up to. The lights are in the order they were made, the sky's sun among them."""
+    """All that a scene adds up to. The lights are in the order they were made, the sky's sun among them; `made` is what
+    each item of the program added, in file order."""
 
     scene: Record
     solids: tuple[Record, ...]
     lights: tuple[Record, ...]
-    variables: dict[str, Value]
+    made: tuple[Made, ...]
 
 
 class Evaluator:
@@ -43,34 +55,50 @@ class Evaluator:
 
     def __init__(self, findings: Findings) -> None:
         self._findings = findings
-        self._variables: dict[str, Value] = {}
-        self._scene = Record("SCENE", (0, 0))
-        self._solids: list[Record] = []
-        self._lights: list[Record] = []
+        self._variables: Ledger[Value] = Ledger()
+        self._lights: list[Record] = []  # of the item being run
 
-    def run(self, items: Iterable[program.Item], faulty: frozenset[int]) -> World:
+    def run(self, items: Iterable[program.Item], faulty: frozenset[int], steps: Steps | None = None) -> World:
         """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
 
-        Of the items that start at a `faulty` byte, which are not whole, nothing is reported.
+        Of the items that start at a `faulty` byte, which are not whole, nothing is reported. With the `steps` of a run
+        before, an item is run only if it or a variable that it uses has changed.
         """
+        made: list[Made] = []
         for item in items:
-            self._findings.base = item.start
+            self._findings.base = item.base
             before = len(self._findings.found)
-            self._item(item.content)
+            if steps is None:
+                made.append(self._item(item.content))
+            else:
+                work = partial(self._item, item.content)
+                made.append(steps.do(item.base, item.content, work, self._findings, self._variables))
             if item.start in faulty:
                 del self._findings.found[before:]
         self._findings.base = 0
-        return World(self._scene, tuple(self._solids), tuple(self._lights), self._variables)
+        scene = next((step.scene for step in made if step.scene is not None), None)
+        return World(
+            scene or Record("SCENE", (0, 0)),
+            tuple(solid for step in made for solid in step.solids),
+            tuple(light for step in made for light in step.lights),
+            tuple(made),
+        )
 
-    def _item(self, content: tuple[program.Declaration, ...] | program.Assignment | program.Block) -> None:
+    def _item(self, content: program.Content) -> Made:
+        self._lights = []
         match content:
             case program.Assignment():
-                self._assign(content)
+                return Made(self._assign(content), None, (), ())
             case program.Block():
-                self._top(content)
+                record = self._top(content)
+                scene = record if record.block == "SCENE" else None
+                solids = (record,) if record.block == "SOLID" else ()
+                lights = (record,) if record.block == "LIGHT" else tuple(self._lights)
+                return Made(None, scene, solids, lights)
             case declarations:
                 for declaration in declarations:
                     self._variables[declaration.name.text] = self._default(declaration)
+                return Made(None, None, (), ())
 
     def _default(self, declaration: program.Declaration) -> Value:
         if declaration.type == "NUMBER":
@@ -79,7 +107,7 @@ class Evaluator:
             return (0.0, 0.0, 0.0)
         return Record(declaration.type, self._findings.absolute(declaration.name.span))
 
-    def _assign(self, item: program.Assignment) -> None:
+    def _assign(self, item: program.Assignment) -> Value:
         name = item.target.text
         value = self._variables[name]
         if isinstance(item.value, ast.Name):
@@ -95,17 +123,12 @@ class Evaluator:
                 self._body(value, item.body)
                 FINISH[value.block](value, self._findings, whole=False)
         self._variables[name] = value
+        return value
 
-    def _top(self, block: program.Block) -> None:
-        if block.entry.keyword == "SCENE":
-            self._scene.span = self._findings.absolute(block.span)
-            self._scene.broken = block.broken
-            self._body(self._scene, block.body)
-            FINISH["SCENE"](self._scene, self._findings, whole=True)
-            return
+    def _top(self, block: program.Block) -> Record:
         record = self._record(block)
         FINISH[record.block](record, self._findings, whole=True)
-        (self._solids if record.block == "SOLID" else self._lights).append(record)
+        return record
 
     def _record(self, block: program.Block) -> Record:
         """A new record: of default values, or a copy of a variable; then changed by the body."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from . import ir
 from .evaluate import World
 from .ir import LightKind, PrimitiveKind, TextureKind
+from .places import Places
 from .transform import IDENTITY, Matrix, Transform, cosine_and_sine, unit
 from .values import Record
 
@@ -18,7 +20,8 @@ from .values import Record
 class _Rows:
     """The tables of the IR while they grow: rows one by one, or columns of many rows at once."""
 
-    def __init__(self) -> None:
+    def __init__(self, places: Places) -> None:
+        self.places = places
         self._rows: dict[str, list[dict[str, Any]]] = {table: [] for table in ir.TABLES}
         self._chunks: dict[str, list[dict[str, NDArray[Any]]]] = {table: [] for table in ir.TABLES}
         self._counts = dict.fromkeys(ir.TABLES, 0)
@@ -53,6 +56,8 @@ class _Rows:
                     name: np.array([row[name] for row in rows], column.dtype).reshape(len(rows), *column.shape)
                     for name, column in columns.items()
                 }
+            if "span" in columns:
+                made[table]["span"] = self.places.array(made[table]["span"])
         return made
 
 
@@ -60,9 +65,9 @@ def _joined(chunks: list[NDArray[Any]]) -> NDArray[Any]:
     return chunks[0] if len(chunks) == 1 else np.concatenate(chunks)
 
 
-def lower(world: World, source: str) -> ir.SceneIR:
+def lower(world: World, source: str, places: Places) -> ir.SceneIR:
     """The IR of a scene. Records that were found faulty may be in it; it is complete only where there is no error."""
-    rows = _Rows()
+    rows = _Rows(places)
     for solid in world.solids:
         _solid(rows, solid)
     sun = -1
@@ -81,7 +86,14 @@ def lower(world: World, source: str) -> ir.SceneIR:
             span=np.stack([starts, np.append(starts[1:], profile.span[1])], axis=1),
         )
     tables = rows.tables()
-    return ir.SceneIR(_scene(world.scene, sun, _extent(tables), tables["profile"]), tables, source)
+    spans = {keyword: places.span(record.span) for keyword, record in _once(world.scene)}
+    return ir.SceneIR(_scene(world.scene, sun, _extent(tables), tables["profile"], spans), tables, source)
+
+
+def _once(scene: Record) -> Iterator[tuple[str, Record]]:
+    """The scene and its blocks, by keyword."""
+    yield "SCENE", scene
+    yield from scene.nested.items()
 
 
 # --- objects ------------------------------------------------------------------------------------------------------
@@ -280,7 +292,7 @@ def _mesh(rows: _Rows, record: Record, transform: Transform) -> int:
         "facets",
         vertex=mesh.facets + np.int32(first_vertex),
         normal=normal_rows,
-        offset=mesh.offsets + np.uint32(mesh.origin),
+        offset=mesh.offsets + np.uint32(rows.places.real(mesh.origin)),
     )
     return rows.add(
         "meshes",
@@ -312,7 +324,9 @@ def _extent(tables: dict[str, ir.Table]) -> ir.Extent | None:
 # --- scene --------------------------------------------------------------------------------------------------------
 
 
-def _scene(record: Record, sun: int, extent: ir.Extent | None, profile: ir.Table) -> ir.Scene:
+def _scene(
+    record: Record, sun: int, extent: ir.Extent | None, profile: ir.Table, spans: dict[str, ir.Span]
+) -> ir.Scene:
     nested = record.nested
     ambient, haze = record.member("AMBIENT"), record.member("HAZE")
     sky, mirage = nested.get("SKY"), nested.get("MIRAGE")
@@ -332,7 +346,7 @@ def _scene(record: Record, sun: int, extent: ir.Extent | None, profile: ir.Table
         mirage=None if mirage is None or not len(profile["elevation"]) else _mirage(mirage, profile),
         view=view(record.member("VIEW")),
         extent=extent,
-        spans={"SCENE": record.span, **{keyword: block.span for keyword, block in nested.items()}},
+        spans=spans,
     )
 
 

@@ -75,8 +75,13 @@ class Assignment(NamedTuple):
     span: Span
 
 
+Content: TypeAlias = tuple[Declaration, ...] | Assignment | Block
+
+
 class Item(NamedTuple):
-    """One top-level item and the byte it starts at; the spans below it are relative to that."""
+    """One top-level item and the byte it starts at; the spans below it are relative to that, and elsewhere to `base`
+    (see places.py)."""
 
     start: int
-    content: tuple[Declaration, ...] | Assignment | Block
+    base: int
+    content: Content

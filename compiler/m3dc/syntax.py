@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import count
 from typing import NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
@@ -17,8 +18,9 @@ import tree_sitter_m3d
 from tree_sitter_m3d.table import LANGUAGE
 
 from . import ast, long_tables
-from .diagnostics import Findings
+from .diagnostics import Diagnostic, Findings
 from .ir import Span
+from .places import REACH, Places
 from .source import Source
 
 # Deeper than any scene needs (SOLID > SURFACE > TEXTURE > CHECKER > TRANSFORM), and less than Python's stack allows.
@@ -47,13 +49,14 @@ class Syntax(NamedTuple):
     faulty: frozenset[int]
 
 
-def parse(source: Source, findings: Findings) -> Syntax:
-    """Read a scene. Never raises on any text; what is wrong goes into `findings`."""
+def parse(source: Source, findings: Findings, before: Parsed | None = None) -> Syntax:
+    """Read a scene. Never raises on any text; what is wrong goes into `findings`. What was `before`, the text parsed
+    last, and has not changed is used again."""
     outside = long_tables.outside(source.data)
     head = _hopeless_head(source.data, outside)
     if head is not None:
         return parse(Source(head, source.name), findings)
-    tree = _tree(source.data, outside)
+    tree = _tree(source.data, outside) if before is None else before.tree(source.data, outside)
     control = _find_control(source.data, outside)
     if control is not None:
         found = f"it holds the byte {source.data[control]:#04x}"
@@ -66,7 +69,7 @@ def parse(source: Source, findings: Findings) -> Syntax:
     if all(node.type == "comment" for node in tree.root_node.children):
         findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
     if not tree.root_node.has_error:
-        return Syntax(tree, _items(tree, source.data, findings), frozenset())
+        return Syntax(tree, _items(tree, source.data, findings, before), frozenset())
 
     from . import syntax_errors
 
@@ -75,7 +78,7 @@ def parse(source: Source, findings: Findings) -> Syntax:
     faulty = syntax_errors.report(data, mended.root_node, findings, MOST_FAULTS)
     if faulty is None:
         return Syntax(tree, iter(()), frozenset())
-    return Syntax(tree, _items(mended, data, findings), faulty)
+    return Syntax(tree, _items(mended, data, findings, before), faulty)
 
 
 def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
@@ -88,8 +91,10 @@ def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
     return head if faulty > MOST_FAULTS else None
 
 
-def _items(tree: Tree, data: bytes, findings: Findings) -> Iterator[ast.TopLevel]:
+def _items(tree: Tree, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:
     """The top-level items that can be read, each with spans relative to its start."""
+    if before is not None:
+        before.begin()
     for node in tree.root_node.children:
         if node.type == "comment":
             continue
@@ -98,9 +103,12 @@ def _items(tree: Tree, data: bytes, findings: Findings) -> Iterator[ast.TopLevel
             found = f"{len(findings.found)} problems up to here; the rest of the text is not looked at"
             findings.add("M3D0115", (0, 1), found)
             return
-        item = _Builder(data, findings, node.start_byte).item(node, 0)
+        if before is None:
+            base, item = node.start_byte, _Builder(data, findings, node.start_byte).item(node, 0)
+        else:
+            base, item = before.item(node, data, findings)
         if item is not None:
-            yield ast.TopLevel(node.start_byte, item)
+            yield ast.TopLevel(node.start_byte, base, item)
 
 
 def _tree(data: bytes, outside: list[Span]) -> Tree:
@@ -111,6 +119,89 @@ def _tree(data: bytes, outside: list[Span]) -> Tree:
     ranges = [Range(anywhere, anywhere, start, end) for start, end in outside[:-1]]
     ranges.append(Range(anywhere, Point(0xFFFFFFFF, 0xFFFFFFFF), outside[-1][0], 0xFFFFFFFF))
     return Parser(_GRAMMAR, included_ranges=ranges).parse(data)
+
+
+class Parsed:
+    """What was made of the text parsed last: its tree, and its items by their text. `places` tells where the items of
+    the text that is being parsed begin."""
+
+    def __init__(self) -> None:
+        self.places = Places()
+        self._data = b""
+        self._outside: list[Span] = []
+        self._tree: Tree | None = None
+        self._before: dict[tuple[bytes, int], _Read] = {}
+        self._now: dict[tuple[bytes, int], _Read] = {}
+        self._count = 0
+
+    def tree(self, data: bytes, outside: list[Span]) -> Tree:
+        """The tree of a text, of the tree of the last one. The same tree as from the start: where the text is broken,
+        mending it might depend on the edits before, so that it is parsed anew."""
+        tree = None
+        if self._tree is not None and len(outside) == len(self._outside) == 1:
+            self._tree.edit(*_edit(self._data, data))
+            tree = Parser(_GRAMMAR).parse(data, self._tree)
+        if tree is None or tree.root_node.has_error:
+            tree = _tree(data, outside)
+        self._data, self._outside, self._tree = data, outside, tree
+        return tree.copy()
+
+    def begin(self) -> None:
+        """Start to go through the items of a text."""
+        self._before, self._now = self._now, {}
+        self.places = Places()
+
+    def item(self, node: Node, data: bytes, findings: Findings) -> tuple[int, ast.Item | None]:
+        """The item of a node, and the base of its places."""
+        text = data[node.start_byte : node.end_byte]
+        key = next((text, n) for n in count() if (text, n) not in self._now)
+        read = self._before.get(key)
+        if read is None:
+            self._count += 1
+            findings.base = self._count * REACH
+            before = len(findings.found)
+            item = _Builder(data, findings, node.start_byte).item(node, 0)
+            read = _Read(findings.base, item, tuple(findings.found[before:]))
+        else:
+            findings.found.extend(read.found)
+        self._now[key] = read
+        self.places.put(read.base, node.start_byte)
+        return read.base, read.item
+
+
+class _Read(NamedTuple):
+    """The item that a text is read as, the base of its places, and what was wrong."""
+
+    base: int
+    item: ast.Item | None
+    found: tuple[Diagnostic, ...]
+
+
+def _edit(old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
+    """The stretch in which two texts differ, as tree-sitter wants it: start, old end and new end, in bytes and then in
+    rows and columns."""
+    start = _alike(old, new, lambda text, length: text[:length])
+    longest = min(len(old), len(new)) - start
+    tail = _alike(old[len(old) - longest :], new[len(new) - longest :], lambda text, length: text[len(text) - length :])
+    ends = len(old) - tail, len(new) - tail
+    return start, *ends, _point(old, start), _point(old, ends[0]), _point(new, ends[1])
+
+
+def _alike(one: bytes, other: bytes, part: Callable[[bytes, int], bytes]) -> int:
+    """How many bytes two texts have in common at one of their ends, by halving."""
+    low, high = 0, min(len(one), len(other))
+    while low < high:
+        middle = (low + high + 1) // 2
+        if part(one, middle) == part(other, middle):
+            low = middle
+        else:
+            high = middle - 1
+    return low
+
+
+def _point(data: bytes, offset: int) -> Point:
+    line = data.rfind(b"\n", 0, offset) + 1
+    return Point(data.count(b"\n", 0, line), offset - line)
 
 
 def _find_control(data: bytes, outside: list[Span]) -> int | None:

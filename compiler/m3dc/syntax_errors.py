@@ -37,8 +37,9 @@ def mend_braces(data: bytes, root: Node, findings: Findings) -> bytes:
     faults = brace_faults(text)
     if not faults:
         return data
-    first = first_error(text)
-    if first is None or "LBRACE" in first.expected or first.offset < max(fault.offset for fault in faults):
+    start = _before_first_fault(root)
+    first = first_error(text[start:])
+    if first is None or "LBRACE" in first.expected or start + first.offset < max(fault.offset for fault in faults):
         return data
     mended = repaired(data, faults)
     if mended is None:
@@ -52,6 +53,17 @@ def mend_braces(data: bytes, root: Node, findings: Findings) -> bytes:
             place = (fault.offset, fault.offset + 1)
             findings.add("M3D0107", place, "found '}', which closes more than was opened")
     return mended
+
+
+def _before_first_fault(root: Node) -> int:
+    """Where the item begins that stands before the first faulty one: all before it can be read."""
+    start = before = 0
+    for node in root.children:
+        if node.has_error or node.is_missing:
+            break
+        if node.type != "comment":
+            start, before = before, node.end_byte
+    return start
 
 
 def report(data: bytes, root: Node, findings: Findings, most: int) -> frozenset[int] | None:

@@ -1,0 +1,102 @@
+"""A scene that is being edited: all that is known of its text, found anew after each edit at the cost of what changed.
+
+`compile` gives a result and forgets the rest; an editor asks for the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import TypeVar
+
+from tree_sitter import Tree
+
+from . import ast, program
+from .check import check
+from .compiler import Result, has_errors, in_order
+from .diagnostics import Diagnostic, Findings
+from .evaluate import Evaluator, World
+from .ir import SceneIR
+from .lint import lint
+from .lower import lower
+from .memo import Steps
+from .places import Places
+from .source import Source
+from .syntax import Parsed, parse
+
+T = TypeVar("T")
+
+
+class Analysis:
+    """What each stage made of one text.
+
+    Its `tree` is the concrete syntax tree of the text; `items` are the top-level items that could be read, and
+    `program` those of them, in the same order, that are right as far as they go; `world.made` has an entry for each of
+    `program`. Spans in `items` and `program` are relative to their item; `places` makes those of records in `world`
+    bytes of the text.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        tree: Tree,
+        items: tuple[ast.TopLevel, ...],
+        program: tuple[program.Item, ...],
+        world: World,
+        places: Places,
+        diagnostics: tuple[Diagnostic, ...],
+    ) -> None:
+        self.source = source
+        self.tree = tree
+        self.items = items
+        self.program = program
+        self.world = world
+        self.places = places
+        self.diagnostics = diagnostics
+
+    @cached_property
+    def ok(self) -> bool:
+        """Whether no diagnostic is an error."""
+        return not has_errors(self.diagnostics)
+
+    @cached_property
+    def ir(self) -> SceneIR:
+        """The scene's IR, as far as it goes; made when it is first asked for."""
+        return lower(self.world, self.source.name, self.places)
+
+    @property
+    def result(self) -> Result:
+        """What `compile` gives for the text."""
+        return Result(self.ir, self.diagnostics, self.source)
+
+
+class Analyser:
+    """Analyses the versions of one scene, one after the other. Not to be shared by threads."""
+
+    def __init__(self) -> None:
+        self._parsed = Parsed()
+        self._checks = Steps()
+        self._runs = Steps()
+
+    def analyse(self, source: Source) -> Analysis:
+        """All about a text: the same, whatever was analysed before. Never raises on any text."""
+        findings = Findings()
+        self._checks.begin()
+        self._runs.begin()
+        syntax = parse(source, findings, self._parsed)
+        items: list[ast.TopLevel] = []
+        checked: list[program.Item] = []
+        right = check(source, _noted(syntax.items, items), syntax.faulty, findings, self._checks)
+        world = Evaluator(findings).run(_noted(right, checked), syntax.faulty, self._runs)
+        if not has_errors(findings.found):
+            lint(world, findings)
+        places = self._parsed.places
+        diagnostics = in_order(map(places.diagnostic, findings.found), source)
+        return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, places, diagnostics)
+
+
+def _noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:
+    """The same things; each is added to the notes as it passes."""
+    for thing in things:
+        notes.append(thing)
+        yield thing

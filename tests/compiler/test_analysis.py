@@ -1,0 +1,119 @@
+"""What is found after edits is what is found from the start: diagnostics, IR, items and tree."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import m3dc
+from m3dc import SceneIR, Source
+from m3dc.analysis import Analyser, Analysis
+
+SCENE = """\
+/* A scene to be edited. */
+VARIABLES { NUMBER size, far; VECTOR red; SURFACE skin; SPHERE ball; SOLID thing; TRANSFORM turn; }
+size = 0.5 far = 30 red = < 1, 0, 0 >
+skin = { COLOR red TEXTURE { CHECKER { COLOR < 0, size, 1 > } } }
+turn = { ROTATE < 0, 0, 30 > }
+ball = { RADIUS size }
+thing = { SPHERE ball { CENTER < far, 0, 0 > } SURFACE skin TRANSFORM turn }
+SOLID thing
+SOLID thing { SURFACE { SPECULAR 0.5 } }
+SOLID thing
+ball = { RADIUS 3 }
+SOLID { SPHERE ball SURFACE skin { TEXTURE { UBLEND { COLORS { 0 0.5 < 1, 0, 0 > < 0, 1, 0 > } } } } }
+SOLID { POLYGONS { VERTICES { 3 < 0, 0, 0 > < 1, 0, 0 > < 0, 1, 1 > } FACETS { 1 0 1 2 } } TRANSFORM { IDENTITY } }
+SCENE { SHADOWS SKY { SUN { ZENITH 30 } } VIEW { FROM < far, 0, 2 > TO < 0, 0, 0 > }
+        MIRAGE { PROFILE { 0 20 size 19 9 18 } } }
+LIGHT { SOURCE { FROM < 0, 0, 9 > TO < 0, 0, 0 > } }
+"""
+PIECES = (
+    "{", "}", "<", ",", ";", "=", "/*", "*/", "\n", " ", "0", "-1", "1e9", "x", "é",
+    "size", "ball", "skin", "red", "thing", "size = 5", "NUMBER", "SPHERE", "RADIUS", "RADIUS -1", "SOLID thing",
+    "SCENE { }", "VARIABLES { NUMBER more; }", "more = 1", "SOLID { SPHERE { } }", "\x00", "SPHERE ball",
+)  # fmt: skip
+
+
+def spread(ir: SceneIR) -> list[tuple[str, str, str]]:
+    """Everything in an IR, comparable."""
+    tables = [(t, c, repr(column.tolist())) for t, columns in ir.tables.items() for c, column in columns.items()]
+    return [("", "", repr(ir.scene)), *tables]
+
+
+def check_same(analysis: Analysis, text: bytes) -> None:
+    fresh = m3dc.compile(text)
+    assert analysis.diagnostics == fresh.diagnostics
+    assert spread(analysis.ir) == spread(fresh.ir)
+    anew = Analyser().analyse(Source(text))
+    assert str(analysis.tree.root_node) == str(anew.tree.root_node)
+    assert [(top.start, top.item) for top in analysis.items] == [(top.start, top.item) for top in anew.items]
+    assert [item.start for item in analysis.program] == [item.start for item in anew.program]
+
+
+edits = st.lists(
+    st.tuples(
+        st.integers(0, len(SCENE)), st.sampled_from([0, 0, 1, 2, 7, 40]), st.lists(st.sampled_from(PIECES), max_size=2)
+    ),
+    min_size=1,
+    max_size=8,
+)
+
+
+@given(edits)
+@example([(SCENE.index("far = 30"), 9, [])])  # a variable is assigned to no more
+@example([(SCENE.index("NUMBER size"), 0, ["/*"]), (SCENE.index("NUMBER size"), 2, [])])
+@example([(SCENE.index("SOLID thing"), 12, []), (0, 0, ["\n"])])  # the others of its like stay
+@example([(SCENE.index("SCENE"), 0, ["SCENE { }"]), (SCENE.index("SCENE"), 9, [])])  # the first counts, and goes
+@example([(0, 0, ["VARIABLES { NUMBER more; }"])])
+def test_after_edits_all_is_as_from_the_start(changes: list[tuple[int, int, list[str]]]) -> None:
+    analyser = Analyser()
+    text = SCENE
+    check_same(analyser.analyse(Source(text.encode())), text.encode())
+    for start, length, new in changes:
+        start = min(start, len(text))
+        text = text[:start] + " ".join(new) + text[start + length :]
+        check_same(analyser.analyse(Source(text.encode())), text.encode())
+
+
+@pytest.mark.parametrize("name", ["merman", "wheel", "terrain", "runway"])
+def test_a_scene_typed_word_by_word(name: str, examples: Path) -> None:
+    """Every few words the text so far is looked at, as an editor would."""
+    words = (examples / f"{name}.m3d").read_bytes().split(b" ")
+    analyser = Analyser()
+    for number in range(0, len(words), max(1, len(words) // 40)):
+        text = b" ".join(words[:number])
+        check_same(analyser.analyse(Source(text)), text)
+
+
+def test_a_text_with_a_long_table(examples: Path) -> None:
+    rows = "".join(f"< {x}, {y}, {np.sin(x + y):.6f} >\n" for x in range(100) for y in range(100))
+    text = f"SOLID {{ TERRAIN {{ VERTICES {{ 100 100 {rows} }} }} }}\nLIGHT {{ }}\n"
+    analyser = Analyser()
+    for change in ("", "/* moved */ ", "SOLID { SPHERE { RADIUS x } } "):
+        check_same(analyser.analyse(Source((change + text).encode())), (change + text).encode())
+    broken = text.replace("< 50, 50,", "< 50 50,")
+    check_same(analyser.analyse(Source(broken.encode())), broken.encode())
+
+
+def test_what_did_not_change_is_not_made_again() -> None:
+    analyser = Analyser()
+    first = analyser.analyse(Source(SCENE.encode()))
+    assert first.ok
+    moved = analyser.analyse(Source(b"\n" + SCENE.encode()))
+    assert [id(item.content) for item in first.program] == [id(item.content) for item in moved.program]
+    assert [id(made) for made in first.world.made] == [id(made) for made in moved.world.made]
+    changed = analyser.analyse(Source(SCENE.replace("size = 0.5", "size = 0.7").encode()))
+    kept = [one is other for one, other in zip(moved.world.made, changed.world.made, strict=True)]
+    texts = [SCENE[item.start - 1 :].split(" ")[0] for item in moved.program]
+    assert [text for text, same in zip(texts, kept, strict=True) if same] == [
+        "VARIABLES",
+        "far",
+        "red",
+        "turn",
+        "SOLID",
+        "LIGHT",
+    ]

@@ -14,11 +14,13 @@ PACKAGES = {
     "tree_sitter_m3d": ROOT / "grammar/tree_sitter_m3d",
     "m3dc": ROOT / "compiler/m3dc",
     "m3d_render": ROOT / "renderer/m3d_render",
+    "m3d_lsp": ROOT / "lsp/m3d_lsp",
 }
 MAY_IMPORT = {
     "tree_sitter_m3d": {"lark"},
     "m3dc": {"tree_sitter_m3d", "tree_sitter", "numpy"},
     "m3d_render": {"m3dc", "numpy", "OpenImageIO"},
+    "m3d_lsp": {"m3dc", "m3d_render", "tree_sitter_m3d", "tree_sitter", "numpy", "pygls", "lsprotocol"},
 }
 
 

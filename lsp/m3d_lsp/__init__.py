@@ -1,0 +1,1 @@
+"""The language server of the Mirage3D scene language."""

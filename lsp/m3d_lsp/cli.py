@@ -1,0 +1,61 @@
+"""`m3d-lsp`: starts the language server."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+
+# How long one thread may keep the others waiting: what is long work to the server is a blink to a person.
+SWITCH_INTERVAL_S = 0.001
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the server until its client leaves. Returns the exit status."""
+    parser = argparse.ArgumentParser(prog="m3d-lsp", description="Language server for Mirage3D scenes.")
+    parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (the default)")
+    parser.add_argument("--tcp", metavar="[HOST:]PORT", help="listen on a port instead, for one client")
+    parser.add_argument("--log-file", metavar="FILE", help="append what happens to a file")
+    parser.add_argument("--log-level", choices=["debug", "info", "warning", "error"], default="info")
+    parser.add_argument("--version", action="version", version=f"m3d-lsp {version('m3d-lsp')}")
+    options = parser.parse_args(arguments)
+    if options.stdio and options.tcp:
+        parser.error("--stdio and --tcp exclude each other")
+    address = ("127.0.0.1", 0)
+    if options.tcp:
+        host, _, port = options.tcp.rpartition(":")
+        if not port.isdecimal() or int(port) > 65535:
+            parser.error(f"--tcp takes a port, or host:port, not {options.tcp!r}")
+        address = (host or "127.0.0.1", int(port))
+    try:
+        _log_to(options.log_file, options.log_level)
+    except OSError as error:
+        print(f"m3d-lsp: can not write {options.log_file}: {error.strerror}", file=sys.stderr)
+        return 2
+
+    from .server import make_server
+
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    server = make_server()
+    if options.tcp:
+        try:
+            server.start_tcp(*address)
+        except OSError as error:
+            print(f"m3d-lsp: can not listen on {address[0]}:{address[1]}: {error.strerror}", file=sys.stderr)
+            return 2
+    else:
+        server.start_io()
+    return 0
+
+
+def _log_to(file: str | None, level: str) -> None:
+    """Without a file only warnings are written, to standard error. Raises OSError if the file can not be written."""
+    handler = logging.FileHandler(file, encoding="utf-8") if file else logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    root = logging.getLogger()
+    root.addHandler(handler)
+    root.setLevel(level.upper() if file else logging.WARNING)
+    # Every message that is sent or received, whole: wanted only where everything is.
+    logging.getLogger("pygls").setLevel(logging.DEBUG if file and level == "debug" else logging.WARNING)

@@ -1,0 +1,64 @@
+"""Diagnostics: what `m3dc` says, as the text is typed. Pushed after each look, or pulled by the client."""
+
+from __future__ import annotations
+
+from lsprotocol import types
+
+from m3dc import Diagnostic
+
+from ..documentation import page_of
+from ..registry import request
+from ..snapshot import Snapshot
+
+SOURCE = "m3dc"
+SEVERITY = {
+    "error": types.DiagnosticSeverity.Error,
+    "warning": types.DiagnosticSeverity.Warning,
+    "hint": types.DiagnosticSeverity.Hint,
+}
+# What has no effect is shown faded.
+WITHOUT_EFFECT = {"M3D0503", "M3D0512", "M3D0204"}
+
+
+def of(snapshot: Snapshot) -> list[types.Diagnostic]:
+    """All diagnostics of a document, by the levels that are set; hints too."""
+    levels = snapshot.settings.diagnostics.levels
+    found: list[types.Diagnostic] = []
+    for diagnostic in snapshot.analysis.diagnostics:
+        shown = levels.apply([diagnostic])
+        if not shown and diagnostic.severity == "hint" and not levels.allow & {diagnostic.code, "all"}:
+            shown = [diagnostic]
+        found.extend(lsp_diagnostic(snapshot, each) for each in shown)
+    return found
+
+
+def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnostic:
+    """A diagnostic in LSP's form."""
+    page = page_of(diagnostic.code)
+    return types.Diagnostic(
+        snapshot.range(diagnostic.span),
+        diagnostic.message,
+        severity=SEVERITY[diagnostic.severity],
+        code=diagnostic.code,
+        code_description=types.CodeDescription(page) if page else None,
+        source=SOURCE,
+        tags=[types.DiagnosticTag.Unnecessary] if diagnostic.code in WITHOUT_EFFECT else None,
+        related_information=[
+            types.DiagnosticRelatedInformation(snapshot.location(place.span), place.message)
+            for place in diagnostic.related
+        ]
+        or None,
+    )
+
+
+@request(
+    types.TEXT_DOCUMENT_DIAGNOSTIC,
+    types.DiagnosticOptions(inter_file_dependencies=False, workspace_diagnostics=False, identifier=SOURCE),
+    nothing=types.RelatedFullDocumentDiagnosticReport([]),
+)
+def pull(snapshot: Snapshot, params: types.DocumentDiagnosticParams) -> types.DocumentDiagnosticReport:
+    """The diagnostics of a document; that they are the same still, where the client has them already."""
+    known = f"{snapshot.version}:{hash(snapshot.settings.diagnostics)}"
+    if params.previous_result_id == known:
+        return types.RelatedUnchangedDocumentDiagnosticReport(known)
+    return types.RelatedFullDocumentDiagnosticReport(of(snapshot), result_id=known)

@@ -1,0 +1,136 @@
+"""The variables of a document: where each is declared, assigned to and used, and what it is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import Enum
+from functools import lru_cache
+from typing import NamedTuple
+
+from m3dc import ast, program
+from m3dc.analysis import Analysis
+from m3dc.values import Value
+
+from .text import Span
+
+
+class Role(Enum):
+    """What a name is there for."""
+
+    DECLARATION = "declaration"
+    ASSIGNMENT = "assignment"
+    USE = "use"
+
+
+class Occurrence(NamedTuple):
+    """A name in the text. `type` is what it is declared as, where the occurrence is a declaration."""
+
+    name: str
+    span: Span
+    role: Role
+    type: str = ""
+
+
+class Names:
+    """All names of a document, in the order of the text."""
+
+    def __init__(self, analysis: Analysis) -> None:
+        self._analysis = analysis
+        self.occurrences: list[Occurrence] = []
+        self._by_name: dict[str, list[Occurrence]] = {}
+        for top in analysis.items:
+            for occurrence in _names_of(top.item):
+                start, end = occurrence.span
+                placed = occurrence._replace(span=(start + top.start, end + top.start))
+                self.occurrences.append(placed)
+                self._by_name.setdefault(occurrence.name, []).append(placed)
+
+    def at(self, offset: int) -> Occurrence | None:
+        """The name that a byte belongs to, or that ends before it."""
+        return next((o for o in self.occurrences if o.span[0] <= offset <= o.span[1]), None)
+
+    def of(self, name: str) -> list[Occurrence]:
+        """Every occurrence of a name."""
+        return self._by_name.get(name, [])
+
+    def declaration(self, name: str) -> Occurrence | None:
+        """Where a name is first declared."""
+        return next((o for o in self.of(name) if o.role is Role.DECLARATION), None)
+
+    def declared(self) -> dict[str, Occurrence]:
+        """The first declaration of every variable."""
+        found: dict[str, Occurrence] = {}
+        for occurrence in self.occurrences:
+            if occurrence.role is Role.DECLARATION:
+                found.setdefault(occurrence.name, occurrence)
+        return found
+
+    def type(self, name: str) -> str | None:
+        """The declared type of a variable."""
+        declaration = self.declaration(name)
+        return declaration.type if declaration is not None else None
+
+    def last_assignment(self, name: str, offset: int) -> Occurrence | None:
+        """The last assignment to a variable before a byte."""
+        before = [o for o in self.of(name) if o.role is Role.ASSIGNMENT and o.span[0] < offset]
+        return before[-1] if before else None
+
+    def value(self, name: str, offset: int) -> Value | None:
+        """What a variable is worth at a byte, in the statement that holds it: for the target of an assignment, what it
+        is worth after it. None if it has not been assigned to, or not with what could be read."""
+        value: Value | None = None
+        for item, made in zip(self._analysis.program, self._analysis.world.made, strict=True):
+            content = item.content
+            if item.start > offset:
+                break
+            if isinstance(content, program.Assignment) and content.target.text == name:
+                after_target = item.start + content.target.span[1]
+                if offset >= item.start + content.span[1] or offset <= after_target:
+                    value = made.value
+        return value
+
+
+@lru_cache(maxsize=8)
+def names(analysis: Analysis) -> Names:
+    """The names of an analysed document."""
+    return Names(analysis)
+
+
+def _names_of(item: ast.Item) -> Iterator[Occurrence]:
+    """The names in an item, with spans as its own."""
+    match item:
+        case ast.Variables():
+            for declaration in item.declarations:
+                for name in declaration.names:
+                    yield Occurrence(name.text, name.span, Role.DECLARATION, declaration.type.text)
+        case ast.Assignment():
+            yield Occurrence(item.target.text, item.target.span, Role.ASSIGNMENT)
+            if item.value is not None:
+                yield from _uses(item.value)
+            yield from _body(item.body)
+        case ast.Block():
+            if item.name is not None:
+                yield from _uses(item.name)
+            yield from _body(item.body)
+        case ast.Statement():
+            for argument in item.arguments:
+                yield from _uses(argument)
+        case ast.Table():
+            for entry in item.entries:
+                yield from _uses(entry)
+
+
+def _body(body: ast.Body | None) -> Iterator[Occurrence]:
+    for item in body.items if body is not None else ():
+        yield from _names_of(item)
+
+
+def _uses(argument: ast.Argument) -> Iterator[Occurrence]:
+    match argument:
+        case ast.Name():
+            yield Occurrence(argument.text, argument.span, Role.USE)
+        case ast.Vector():
+            for component in argument.components:
+                yield from _uses(component)
+        case ast.Number():
+            pass

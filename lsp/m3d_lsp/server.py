@@ -1,0 +1,148 @@
+"""The server: keeps the documents, asks the features, and speaks to the client."""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import logging
+from collections.abc import Awaitable, Callable
+from importlib.metadata import version
+from typing import Any
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from . import feature
+from .document import Document
+from .documents import Documents
+from .feature import diagnostics
+from .protocol import Protocol
+from .registry import REQUESTS, SERVER_REQUESTS, Request, ServerRequest
+from .settings import read_settings
+from .snapshot import Snapshot
+
+log = logging.getLogger(__name__)
+
+SECTION = "m3d"
+
+
+class Server(LanguageServer):
+    """A language server for scenes. `documents` are the open ones."""
+
+    def __init__(self) -> None:
+        super().__init__("m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
+        self.documents = Documents(self._looked_at)
+        self._closing: list[Callable[[], None]] = []
+
+    def on_close(self, close: Callable[[], None]) -> None:
+        """Have something called when the server ends."""
+        self._closing.append(close)
+
+    def shutdown(self) -> None:
+        for close in self._closing:
+            close()
+        self.documents.stop()
+        super().shutdown()
+
+    @property
+    def pulls(self) -> bool:
+        """Whether the client asks for diagnostics itself."""
+        document = self.client_capabilities.text_document
+        return document is not None and document.diagnostic is not None
+
+    def tell(self, message: str, kind: types.MessageType = types.MessageType.Error) -> None:
+        """Write to the client's log."""
+        self.window_log_message(types.LogMessageParams(kind, message))
+
+    def _looked_at(self, document: Document, snapshot: Snapshot) -> None:
+        if not self.pulls:
+            self.text_document_publish_diagnostics(
+                types.PublishDiagnosticsParams(document.uri, diagnostics.of(snapshot), snapshot.version)
+            )
+        analysed = {"uri": document.uri, "version": snapshot.version, "ok": snapshot.analysis.ok}
+        self.protocol.notify("m3d/analysed", analysed)
+
+    def forget(self, uri: str) -> None:
+        """A document was closed: nothing is wrong with it any more."""
+        if not self.pulls:
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+
+    @property
+    def can_ask_for_settings(self) -> bool:
+        workspace = self.client_capabilities.workspace
+        return workspace is not None and bool(workspace.configuration)
+
+    async def fetch_settings(self) -> None:
+        """Ask the client for the settings, if it can be asked."""
+        if not self.can_ask_for_settings:
+            return
+        item = types.ConfigurationItem(section=SECTION)
+        answer = await self.workspace_configuration_async(types.ConfigurationParams([item]))
+        self.apply_settings(answer[0] if answer else None)
+
+    def apply_settings(self, given: Any) -> None:
+        """Take over settings in the editor's form."""
+        settings, problems = read_settings(given)
+        for problem in problems:
+            self.tell(problem, types.MessageType.Warning)
+        if settings != self.documents.settings:
+            self.documents.set(settings)
+            self._refresh()
+
+    def _refresh(self) -> None:
+        """Have the client ask anew for what depends on settings."""
+        workspace = self.client_capabilities.workspace
+        if workspace is None:
+            return
+        if self.pulls and workspace.diagnostics and workspace.diagnostics.refresh_support:
+            self.workspace_diagnostic_refresh(None)
+        if workspace.inlay_hint and workspace.inlay_hint.refresh_support:
+            self.workspace_inlay_hint_refresh(None)
+        if workspace.code_lens and workspace.code_lens.refresh_support:
+            self.workspace_code_lens_refresh(None)
+
+
+def make_server() -> Server:
+    """A server with every feature."""
+    server = Server()
+    for module in feature.MODULES:
+        log.debug("feature %s", module.__name__)
+    for entry in REQUESTS:
+        server.feature(entry.method, entry.options)(_answer(server, entry))
+    for entry in SERVER_REQUESTS:
+        server.feature(entry.method, entry.options)(_pass_on(server, entry))
+    return server
+
+
+def _answer(server: Server, entry: Request) -> Callable[[Any], Awaitable[Any]]:
+    """What answers a request about one document. A fault in a feature is logged, and the rest goes on."""
+
+    async def answer(params: Any) -> Any:
+        document = server.documents.get(params.text_document.uri)
+        if document is None:
+            return entry.nothing
+        snapshot = await document.snapshot()
+        try:
+            if entry.slow:
+                return await asyncio.to_thread(entry.handler, snapshot, params)
+            return entry.handler(snapshot, params)
+        except Exception:
+            log.exception("%s failed in version %s of %s", entry.method, snapshot.version, snapshot.uri)
+            server.tell(f"{entry.method} failed; the log file of the server says how")
+            return entry.nothing
+
+    return answer
+
+
+def _pass_on(server: Server, entry: ServerRequest) -> Callable[[Any], Any]:
+    if inspect.iscoroutinefunction(entry.handler):
+
+        async def handle_later(params: Any) -> Any:
+            return await entry.handler(server, params)
+
+        return handle_later
+
+    def handle(params: Any) -> Any:
+        return entry.handler(server, params)
+
+    return handle

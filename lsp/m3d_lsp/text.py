@@ -1,0 +1,141 @@
+"""The text of an open document: bytes, and LSP's lines and characters."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from lsprotocol import types
+from numpy.typing import NDArray
+
+from m3dc import Source
+
+Span = tuple[int, int]
+
+
+class Text:
+    """One version of a document. Immutable; offsets are bytes of its UTF-8 form.
+
+    `encoding` is `"utf-8"`, `"utf-16"` or `"utf-32"`: what a position's `character` counts. Lines end with a line feed,
+    a carriage return, or both, as LSP says.
+    """
+
+    def __init__(
+        self, data: bytes, name: str = "", encoding: str = "utf-16", starts: NDArray[np.int64] | None = None
+    ) -> None:
+        self.data = data
+        self.name = name
+        self.encoding = encoding
+        self._starts = _line_starts(data) if starts is None else starts
+
+    @classmethod
+    def of(cls, text: str, name: str = "", encoding: str = "utf-16") -> Text:
+        """A document with the text that a client sent."""
+        return cls(text.encode("utf-8", "surrogatepass"), name, encoding)
+
+    @cached_property
+    def source(self) -> Source:
+        """The text as the compiler takes it."""
+        return Source(self.data, self.name)
+
+    @property
+    def line_count(self) -> int:
+        return len(self._starts)
+
+    def line_start(self, line: int) -> int:
+        """Where a line begins; the end of the text for one after the last."""
+        return int(self._starts[line]) if line < len(self._starts) else len(self.data)
+
+    def line_of(self, offset: int) -> int:
+        """The line that holds a byte."""
+        return int(np.searchsorted(self._starts, offset, side="right")) - 1
+
+    def line_end(self, line: int) -> int:
+        """Where a line ends, its line break left out."""
+        start, end = self.line_start(line), self.line_start(line + 1)
+        while end > start and self.data[end - 1] in b"\r\n":
+            end -= 1
+        return end
+
+    def line(self, line: int) -> str:
+        """The characters of a line, without its line break."""
+        return _decode(self.data[self.line_start(line) : self.line_end(line)])
+
+    def part(self, span: Span) -> str:
+        """The characters of a range of bytes."""
+        return _decode(self.data[span[0] : span[1]])
+
+    def offset(self, position: types.Position) -> int:
+        """The byte at a position; one beyond the end of its line is the end of the line."""
+        if position.line >= self.line_count:
+            return len(self.data)
+        start, end = self.line_start(position.line), self.line_end(position.line)
+        line = self.data[start:end]
+        if line.isascii() or self.encoding == "utf-8":
+            return start + min(position.character, len(line))
+        units, offset = 0, start
+        for character in _decode(line):
+            if units >= position.character:
+                break
+            units += _units(character, self.encoding)
+            offset += len(character.encode("utf-8", "surrogatepass"))
+        return offset
+
+    def position(self, offset: int) -> types.Position:
+        """The position of a byte."""
+        line = self.line_of(offset)
+        before = self.data[self.line_start(line) : offset]
+        units = len(before) if before.isascii() else _units(_decode(before), self.encoding)
+        return types.Position(line, units)
+
+    def range(self, span: Span) -> types.Range:
+        """A range of bytes as LSP's."""
+        return types.Range(self.position(span[0]), self.position(span[1]))
+
+    def span(self, range_: types.Range) -> Span:
+        """LSP's range as one of bytes."""
+        return self.offset(range_.start), self.offset(range_.end)
+
+    def changed(self, range_: types.Range, new: str) -> Text:
+        """The text with another in place of a range."""
+        start, end = self.span(range_)
+        end = max(start, end)
+        inserted = new.encode("utf-8", "surrogatepass")
+        data = self.data[:start] + inserted + self.data[end:]
+        starts = None
+        if b"\r" not in inserted and b"\r" not in self.data[max(start - 1, 0) : end + 1]:
+            first, last = self.line_of(start), self.line_of(end)
+            starts = np.concatenate([
+                self._starts[: first + 1],
+                _line_starts(inserted)[1:] + start,
+                self._starts[last + 1 :] + (len(inserted) - (end - start)),
+            ])  # fmt: skip
+        return Text(data, self.name, self.encoding, starts)
+
+
+def _units(text: str, encoding: str) -> int:
+    """How many units of an encoding a text takes."""
+    match encoding:
+        case "utf-8":
+            return len(text.encode("utf-8", "surrogatepass"))
+        case "utf-16":
+            return len(text.encode("utf-16-le", "surrogatepass")) // 2
+        case _:
+            return len(text)
+
+
+def _line_starts(data: bytes) -> NDArray[np.int64]:
+    characters = np.frombuffer(data, np.uint8)
+    ends = characters == 0x0A
+    if b"\r" in data:
+        returns = characters == 0x0D
+        returns[:-1] &= characters[1:] != 0x0A
+        ends |= returns
+    return np.concatenate([np.zeros(1, np.int64), np.flatnonzero(ends) + 1])
+
+
+def _decode(data: bytes) -> str:
+    try:
+        return data.decode("utf-8", "surrogatepass")
+    except UnicodeDecodeError:
+        return data.decode("utf-8", "replace")

@@ -1,0 +1,158 @@
+"""An editor as the tests use it: scenes with marks for the cursor, opened in the server.
+
+SOLID { SPH$0ERE { } }          `$0` is the cursor; a scene may have several, `$1`, `$2`, ...
+SOLID { $[SPHERE$] { } }        `$[` and `$]` are the ends of a range
+"""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import itertools
+import re
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
+
+from lsprotocol import types
+from pygls.protocol import default_converter
+from pytest_lsp import LanguageClient
+from pytest_lsp.client import register_lsp_features
+
+T = TypeVar("T")
+
+_NUMBERS = itertools.count(1)
+_MARK = re.compile(r"\$(\d|\[|\])")
+
+
+class Marked(NamedTuple):
+    """A text without its marks, and where they stood: line and character, in characters of the text."""
+
+    text: str
+    places: dict[str, types.Position]
+
+    def range(self) -> types.Range:
+        return types.Range(self.places["["], self.places["]"])
+
+
+def read_marks(marked: str) -> Marked:
+    """The text of a scene, and the places that are marked in it."""
+    text, places, end = "", {}, 0
+    for match in _MARK.finditer(marked):
+        text += marked[end : match.start()]
+        places[match[1]] = position(text, len(text))
+        end = match.end()
+    return Marked(text + marked[end:], places)
+
+
+def position(text: str, index: int) -> types.Position:
+    """Where a character of a text stands, as UTF-32 counts."""
+    line = text.count("\n", 0, index)
+    return types.Position(line, index - (text.rfind("\n", 0, index) + 1))
+
+
+class Scene(NamedTuple):
+    """An open document."""
+
+    uri: str
+    text: str
+    places: dict[str, types.Position]
+
+    @property
+    def identifier(self) -> types.TextDocumentIdentifier:
+        return types.TextDocumentIdentifier(self.uri)
+
+    @property
+    def cursor(self) -> types.Position:
+        return self.places["0"]
+
+    @property
+    def range(self) -> types.Range:
+        return types.Range(self.places["["], self.places["]"])
+
+    def at(self, mark: str = "0") -> dict[str, object]:
+        """The parameters of a request about a place."""
+        return {"text_document": self.identifier, "position": self.places[mark]}
+
+    def part(self, range_: types.Range) -> str:
+        """What a text holds in a range; only for texts of ASCII."""
+        starts = list(itertools.accumulate((len(line) for line in self.text.splitlines(keepends=True)), initial=0))
+        start, end = (starts[p.line] + p.character for p in (range_.start, range_.end))
+        return self.text[start:end]
+
+
+class SceneClient(LanguageClient):
+    """A client that keeps what the server sends unasked: the last diagnostics of each document, and all notifications
+    of our own, by method."""
+
+    def __init__(self) -> None:
+        super().__init__(converter_factory=default_converter)
+        self.published: dict[str, types.PublishDiagnosticsParams] = {}
+        self.notified: dict[str, list[Any]] = {}
+        self._news = asyncio.Event()
+        register_lsp_features(self)
+        # In place of what pytest_lsp has for it, which forgets versions.
+        self.protocol.fm.features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._publish
+        for method in ("m3d/analysed", "m3d/preview/tile"):
+            self.feature(method)(functools.partial(self._notify, method))
+
+    def _publish(self, params: types.PublishDiagnosticsParams) -> None:
+        self.published[params.uri] = params
+        self.diagnostics[params.uri] = params.diagnostics
+        self._news.set()
+
+    def _notify(self, method: str, params: Any) -> None:
+        self.notified.setdefault(method, []).append(params)
+        self._news.set()
+
+    async def wait_until(self, look: Callable[[], T | None], seconds: float = 20) -> T:
+        """What `look` finds, once it finds something; it looks again at every notification."""
+        async with asyncio.timeout(seconds):
+            while (found := look()) is None:
+                self._news.clear()
+                await self._news.wait()
+        return found
+
+
+class Editor:
+    """Opens, changes and closes documents in a server."""
+
+    def __init__(self, client: SceneClient) -> None:
+        self.client = client
+        self._open: dict[str, int] = {}
+
+    def open(self, marked: str, name: str = "scene") -> Scene:
+        """Open a scene under a name that no other has."""
+        text, places = read_marks(marked)
+        uri = f"file:///scenes/{name}-{next(_NUMBERS)}.m3d"
+        item = types.TextDocumentItem(uri, "m3d", 1, text)
+        self.client.text_document_did_open(types.DidOpenTextDocumentParams(item))
+        self._open[uri] = 1
+        return Scene(uri, text, places)
+
+    def change(self, scene: Scene, *changes: types.TextDocumentContentChangeEvent) -> int:
+        """Edit a scene; returns its new version."""
+        self._open[scene.uri] += 1
+        version = self._open[scene.uri]
+        identifier = types.VersionedTextDocumentIdentifier(version, scene.uri)
+        self.client.text_document_did_change(types.DidChangeTextDocumentParams(identifier, list(changes)))
+        return version
+
+    def replace(self, scene: Scene, marked: str) -> Scene:
+        """Put another text in place of all of a scene's."""
+        text, places = read_marks(marked)
+        self.change(scene, types.TextDocumentContentChangeWholeDocument(text))
+        return Scene(scene.uri, text, places)
+
+    async def diagnostics(self, scene: Scene) -> list[types.Diagnostic]:
+        """The diagnostics of the newest version, which the server sends unasked."""
+        published = await self.client.wait_until(lambda: self._published(scene.uri, self._open[scene.uri]))
+        return list(published.diagnostics)
+
+    def _published(self, uri: str, version: int) -> types.PublishDiagnosticsParams | None:
+        last = self.client.published.get(uri)
+        return last if last is not None and last.version == version else None
+
+    def close(self) -> None:
+        for uri in self._open:
+            self.client.text_document_did_close(types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(uri)))
+        self._open = {}

@@ -77,6 +77,7 @@ class Analyser:
         self._parsed = Parsed()
         self._checks = Steps()
         self._runs = Steps()
+        self._lints = Steps()
 
     def analyse(self, source: Source) -> Analysis:
         """All about a text: the same, whatever was analysed before. Never raises on any text."""
@@ -89,7 +90,8 @@ class Analyser:
         right = check(source, _noted(syntax.items, items), syntax.faulty, findings, self._checks)
         world = Evaluator(findings).run(_noted(right, checked), syntax.faulty, self._runs)
         if not has_errors(findings.found):
-            lint(world, findings)
+            self._lints.begin()
+            lint(world, findings, self._lints)
         places = self._parsed.places
         diagnostics = in_order(map(places.diagnostic, findings.found), source)
         return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, places, diagnostics)

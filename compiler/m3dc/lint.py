@@ -1,18 +1,22 @@
 """What is right as far as the language goes, but probably not what was meant: looked for in a scene without errors.
 
-One function a finding, in `LINTS`. What can be seen from the text alone is found by check.py and evaluate.py.
+One function a finding, in `SCENE_LINTS`, or in `OBJECT_LINTS` where it asks for a single object. What can be seen from
+the text alone is found by check.py and evaluate.py.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .diagnostics import Findings
 from .evaluate import World
+from .memo import Ledger, Steps
 from .transform import IDENTITY, Transform, unit
 from .values import Record
 
@@ -21,10 +25,21 @@ NEAR_BOUNDARY = 1e-4  # metres
 _PLACELESS = {"UBLEND", "VBLEND", "SNOW", "GRADIENT"}
 
 
-def lint(world: World, findings: Findings) -> None:
-    """Report everything suspicious about a scene."""
-    for look in LINTS:
+def lint(world: World, findings: Findings, steps: Steps | None = None) -> None:
+    """Report everything suspicious about a scene. With the `steps` of a run before, only objects that changed are
+    looked at for what is in themselves."""
+    for look in SCENE_LINTS:
         look(world, findings)
+    for thing in (*world.solids, *world.lights):
+        if steps is None:
+            _lint_object(thing, findings)
+        else:
+            steps.do(id(thing), thing, partial(_lint_object, thing, findings), findings, _NOTHING)
+
+
+def _lint_object(thing: Record, findings: Findings) -> None:
+    for look in OBJECT_LINTS:
+        look(thing, findings)
 
 
 def _no_light(world: World, findings: Findings) -> None:
@@ -44,25 +59,24 @@ def _boundary(world: World, findings: Findings) -> None:
             findings.add_at("M3D0506", view.place("FROM"), detail)
 
 
-def _texture_stays(world: World, findings: Findings) -> None:
-    for solid in world.solids:
-        textures = solid.member("SURFACE").nested.get("TEXTURE")
-        if textures is None or solid.transform is IDENTITY:
-            continue
-        for texture in textures.parts:
-            if not texture.flag("LOCAL") and texture.block not in _PLACELESS:
-                findings.add_at("M3D0507", texture.span, "LOCAL would tie it to the object")
+def _texture_stays(thing: Record, findings: Findings) -> None:
+    surface = thing.nested.get("SURFACE")
+    textures = None if surface is None else surface.nested.get("TEXTURE")
+    if textures is None or thing.transform is IDENTITY:
+        return
+    for texture in textures.parts:
+        if not texture.flag("LOCAL") and texture.block not in _PLACELESS:
+            findings.add_at("M3D0507", texture.span, "LOCAL would tie it to the object")
 
 
-def _primitives(world: World) -> Iterator[tuple[Record, Transform]]:
-    """Every primitive with the transformation that takes it into the scene."""
-    for thing in (*world.solids, *world.lights):
-        for part in thing.parts:
-            yield part, part.transform.then(thing.transform)
+def _primitives(thing: Record) -> Iterator[tuple[Record, Transform]]:
+    """Every primitive of an object with the transformation that takes it into the scene."""
+    for part in thing.parts:
+        yield part, part.transform.then(thing.transform)
 
 
-def _stretched_sphere(world: World, findings: Findings) -> None:
-    for part, transform in _primitives(world):
+def _stretched_sphere(thing: Record, findings: Findings) -> None:
+    for part, transform in _primitives(thing):
         if part.block != "SPHERE":
             continue
         factors = np.sqrt((transform.matrix[:3, :3] ** 2).sum(axis=1))
@@ -72,12 +86,12 @@ def _stretched_sphere(world: World, findings: Findings) -> None:
             findings.add_at("M3D0509", part.span, detail)
 
 
-def _meshes(world: World) -> Iterator[Record]:
-    return (part for part, _ in _primitives(world) if part.block == "POLYGONS" and part.mesh is not None)
+def _meshes(thing: Record) -> Iterator[Record]:
+    return (part for part in thing.parts if part.block == "POLYGONS" and part.mesh is not None)
 
 
-def _unused_vertices(world: World, findings: Findings) -> None:
-    for record in _meshes(world):
+def _unused_vertices(thing: Record, findings: Findings) -> None:
+    for record in _meshes(thing):
         assert record.mesh is not None
         used = np.zeros(len(record.mesh.vertices), bool)
         used[record.mesh.facets.ravel()] = True
@@ -88,8 +102,8 @@ def _unused_vertices(world: World, findings: Findings) -> None:
             findings.add_at("M3D0510", vertices.place(int(unused[0])), f"vertex {unused[0]}{others}")
 
 
-def _wrong_side(world: World, findings: Findings) -> None:
-    for record in _meshes(world):
+def _wrong_side(thing: Record, findings: Findings) -> None:
+    for record in _meshes(thing):
         mesh = record.mesh
         assert mesh is not None
         if not record.flag("PHONG") or not len(mesh.normals):
@@ -109,8 +123,14 @@ def _light_reaches_nothing(world: World, findings: Findings) -> None:
         source = light if light.block == "SUN" else light.member("SOURCE")
         if source.number("INTENSITY") == 0 or not any(source.vector("COLOR")):
             findings.add_at("M3D0505", source.span, "it has no intensity or is black")
-        elif _is_narrow(source) and world.solids and not any(_reaches(light, source, *p) for p in _primitives(world)):
+        elif _is_narrow(source) and world.solids and not any(_reaches(light, source, *p) for p in _everything(world)):
             findings.add_at("M3D0505", source.span, "it shines past every solid")
+
+
+def _everything(world: World) -> Iterator[tuple[Record, Transform]]:
+    """Every primitive of a scene, likewise."""
+    for thing in (*world.solids, *world.lights):
+        yield from _primitives(thing)
 
 
 def _is_narrow(source: Record) -> bool:
@@ -149,14 +169,11 @@ def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], floa
     return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
 
 
-Lint = Callable[[World, Findings], None]
-
-LINTS: tuple[Lint, ...] = (
-    _no_light,
-    _light_reaches_nothing,
-    _boundary,
+SCENE_LINTS: tuple[Callable[[World, Findings], None], ...] = (_no_light, _light_reaches_nothing, _boundary)
+OBJECT_LINTS: tuple[Callable[[Record, Findings], None], ...] = (
     _texture_stays,
     _stretched_sphere,
     _unused_vertices,
     _wrong_side,
 )
+_NOTHING: Ledger[Any] = Ledger()  # an object's lints ask for nothing but the object

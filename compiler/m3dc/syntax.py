@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
-from itertools import count
 from typing import NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
@@ -73,9 +72,13 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
 
     from . import syntax_errors
 
-    data = syntax_errors.mend_braces(source.data, tree.root_node, findings)
-    mended = tree if data is source.data else _tree(data, long_tables.outside(data))
-    faulty = syntax_errors.report(data, mended.root_node, findings, MOST_FAULTS)
+    text = syntax_errors.plain(source.data, tree.root_node)
+    data = syntax_errors.mend_braces(source.data, text, tree.root_node, findings)
+    mended = tree
+    if data is not source.data:
+        mended = _tree(data, long_tables.outside(data))
+        text = syntax_errors.plain(data, mended.root_node)
+    faulty = syntax_errors.report(text, mended.root_node, findings, MOST_FAULTS)
     if faulty is None:
         return Syntax(tree, iter(()), frozenset())
     return Syntax(tree, _items(mended, data, findings, before), faulty)
@@ -94,7 +97,7 @@ def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
 def _items(tree: Tree, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:
     """The top-level items that can be read, each with spans relative to its start."""
     if before is not None:
-        before.begin()
+        before.begin(data)
     for node in tree.root_node.children:
         if node.type == "comment":
             continue
@@ -106,7 +109,7 @@ def _items(tree: Tree, data: bytes, findings: Findings, before: Parsed | None) -
         if before is None:
             base, item = node.start_byte, _Builder(data, findings, node.start_byte).item(node, 0)
         else:
-            base, item = before.item(node, data, findings)
+            base, item = before.item(node, findings)
         if item is not None:
             yield ast.TopLevel(node.start_byte, base, item)
 
@@ -122,74 +125,109 @@ def _tree(data: bytes, outside: list[Span]) -> Tree:
 
 
 class Parsed:
-    """What was made of the text parsed last: its tree, and its items by their text. `places` tells where the items of
-    the text that is being parsed begin."""
+    """What was made of the text parsed last: its tree and its items. `places` tells where the items of the text that is
+    being parsed begin."""
 
     def __init__(self) -> None:
         self.places = Places()
-        self._data = b""
-        self._outside: list[Span] = []
         self._tree: Tree | None = None
-        self._before: dict[tuple[bytes, int], _Read] = {}
-        self._now: dict[tuple[bytes, int], _Read] = {}
+        self._tree_data = b""
+        self._whole = False  # whether the tree was made of the whole text
+        self._items_data = b""
+        self._change = _Change(0, 0, 0)
+        self._lost: dict[bytes, list[_Read]] = {}  # by their text, the items that stood where the text has changed
+        self._before: dict[int, _Read] = {}
+        self._now: dict[int, _Read] = {}
         self._count = 0
 
     def tree(self, data: bytes, outside: list[Span]) -> Tree:
         """The tree of a text, of the tree of the last one. The same tree as from the start: where the text is broken,
         mending it might depend on the edits before, so that it is parsed anew."""
         tree = None
-        if self._tree is not None and len(outside) == len(self._outside) == 1:
-            self._tree.edit(*_edit(self._data, data))
+        whole = len(outside) == 1
+        if self._tree is not None and self._whole and whole and not self._tree.root_node.has_error:
+            self._tree.edit(*_change(self._tree_data, data).points(self._tree_data, data))
             tree = Parser(_GRAMMAR).parse(data, self._tree)
         if tree is None or tree.root_node.has_error:
             tree = _tree(data, outside)
-        self._data, self._outside, self._tree = data, outside, tree
+        self._tree, self._tree_data, self._whole = tree, data, whole
         return tree.copy()
 
-    def begin(self) -> None:
+    def begin(self, data: bytes) -> None:
         """Start to go through the items of a text."""
+        change = self._change = _change(self._items_data, data)
+        self._lost = {}
+        for start, read in self._now.items():
+            if start < change.old_end and start + read.length > change.start:
+                self._lost.setdefault(self._items_data[start : start + read.length], []).append(read)
+        self._items_data = data
         self._before, self._now = self._now, {}
         self.places = Places()
 
-    def item(self, node: Node, data: bytes, findings: Findings) -> tuple[int, ast.Item | None]:
-        """The item of a node, and the base of its places."""
-        text = data[node.start_byte : node.end_byte]
-        key = next((text, n) for n in count() if (text, n) not in self._now)
-        read = self._before.get(key)
-        if read is None:
+    def item(self, node: Node, findings: Findings) -> tuple[int, ast.Item | None]:
+        """The item of a node, and the base of its places: those of the same text before, if there is one."""
+        start = node.start_byte
+        read = None if node.has_error else self._same(start, node.end_byte)
+        if read is not None:
+            findings.found.extend(read.found)
+        else:
             self._count += 1
             findings.base = self._count * REACH
             before = len(findings.found)
-            item = _Builder(data, findings, node.start_byte).item(node, 0)
-            read = _Read(findings.base, item, tuple(findings.found[before:]))
-        else:
-            findings.found.extend(read.found)
-        self._now[key] = read
-        self.places.put(read.base, node.start_byte)
+            item = _Builder(self._items_data, findings, start).item(node, 0)
+            read = _Read(findings.base, node.end_byte - start, item, tuple(findings.found[before:]))
+        if not node.has_error:
+            self._now[start] = read
+        self.places.put(read.base, start)
         return read.base, read.item
+
+    def _same(self, start: int, end: int) -> _Read | None:
+        """What was read of the same stretch of text, or else of one with the same text."""
+        change = self._change
+        if end <= change.start:
+            read = self._before.get(start)
+        elif start >= change.new_end:
+            read = self._before.get(start - change.new_end + change.old_end)
+        else:
+            alike = self._lost.get(self._items_data[start:end])
+            return alike.pop() if alike else None
+        return read if read is not None and read.length == end - start else None
 
 
 class _Read(NamedTuple):
-    """The item that a text is read as, the base of its places, and what was wrong."""
+    """The item that a stretch of text is read as, the base of its places, and what was wrong."""
 
     base: int
+    length: int
     item: ast.Item | None
     found: tuple[Diagnostic, ...]
 
 
-def _edit(old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
-    """The stretch in which two texts differ, as tree-sitter wants it: start, old end and new end, in bytes and then in
-    rows and columns."""
+class _Change(NamedTuple):
+    """The stretch in which a text differs from an older one."""
+
+    start: int
+    old_end: int
+    new_end: int
+
+    def points(self, old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
+        """The same as tree-sitter wants it."""
+        points = _point(old, self.start), _point(old, self.old_end), _point(new, self.new_end)
+        return self.start, self.old_end, self.new_end, *points
+
+
+def _change(old: bytes, new: bytes) -> _Change:
     start = _alike(old, new, lambda text, length: text[:length])
     longest = min(len(old), len(new)) - start
     tail = _alike(old[len(old) - longest :], new[len(new) - longest :], lambda text, length: text[len(text) - length :])
-    ends = len(old) - tail, len(new) - tail
-    return start, *ends, _point(old, start), _point(old, ends[0]), _point(new, ends[1])
+    return _Change(start, len(old) - tail, len(new) - tail)
 
 
 def _alike(one: bytes, other: bytes, part: Callable[[bytes, int], bytes]) -> int:
     """How many bytes two texts have in common at one of their ends, by halving."""
     low, high = 0, min(len(one), len(other))
+    if part(one, high) == part(other, high):
+        return high
     while low < high:
         middle = (low + high + 1) // 2
         if part(one, middle) == part(other, middle):

@@ -30,10 +30,9 @@ _ITEM_START = re.compile(
 SHORT = 80  # bytes of a table that are not worth leaving out
 
 
-def mend_braces(data: bytes, root: Node, findings: Findings) -> bytes:
-    """The text with missing and superfluous braces mended, each reported; the same text where they match, or where
-    something else is wrong before them."""
-    text = _plain(data, root)
+def mend_braces(data: bytes, text: str, root: Node, findings: Findings) -> bytes:
+    """The data with missing and superfluous braces mended, each reported; the same data where they match, or where
+    something else is wrong before them. `text` is what `plain` makes of it."""
     faults = brace_faults(text)
     if not faults:
         return data
@@ -66,13 +65,12 @@ def _before_first_fault(root: Node) -> int:
     return start
 
 
-def report(data: bytes, root: Node, findings: Findings, most: int) -> frozenset[int] | None:
-    """What is wrong in the form of a text: the first fault of each top-level item.
+def report(text: str, root: Node, findings: Findings, most: int) -> frozenset[int] | None:
+    """What is wrong in the form of a text, as `plain` gives it: the first fault of each top-level item.
 
     Returns where the nodes start that are faulty, or belong to an item that is, and of which no more is to be said;
     None if there are so many faults that the text is given up.
     """
-    text = _plain(data, root)
     nodes = [node for node in root.children if node.type != "comment"]
     faulty = {node.start_byte for node in nodes if node.has_error or node.is_missing}
     done = faults = 0
@@ -111,7 +109,7 @@ def _is_object(node: Node) -> bool:
     return not node.has_error and node.child_count > 0 and node.children[0].type in LANGUAGE.top
 
 
-def _plain(data: bytes, root: Node) -> str:
+def plain(data: bytes, root: Node) -> str:
     """The text as the formal grammar is asked about it, one character a byte, so that its offsets are ours."""
     return blank_comments(_without_tables(data, root).decode("latin-1"))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
@@ -33,6 +33,8 @@ _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 # Diagnostics after which a text is given up: it is no scene, and nobody reads more.
 MOST_FOUND = 10_000
 MOST_FAULTS = 200  # of form, which are dearer to explain
+
+PIECE = 1 << 16
 
 # A text of which, long tables aside, so many bytes are judged by its head first.
 VERY_LONG = 4_000_000
@@ -217,24 +219,26 @@ class _Change(NamedTuple):
 
 
 def _change(old: bytes, new: bytes) -> _Change:
-    start = _alike(old, new, lambda text, length: text[:length])
-    longest = min(len(old), len(new)) - start
-    tail = _alike(old[len(old) - longest :], new[len(new) - longest :], lambda text, length: text[len(text) - length :])
+    start = _alike(old, new, 0, min(len(old), len(new)))
+    # Mirrored, the end of a text is its beginning; what is alike there does not reach into what is alike at the start.
+    tail = _alike(old, new, start, min(len(old), len(new)), mirrored=True)
     return _Change(start, len(old) - tail, len(new) - tail)
 
 
-def _alike(one: bytes, other: bytes, part: Callable[[bytes, int], bytes]) -> int:
-    """How many bytes two texts have in common at one of their ends, by halving."""
-    low, high = 0, min(len(one), len(other))
-    if part(one, high) == part(other, high):
-        return high
-    while low < high:
-        middle = (low + high + 1) // 2
-        if part(one, middle) == part(other, middle):
-            low = middle
+def _alike(one: bytes, other: bytes, used: int, shorter: int, *, mirrored: bool = False) -> int:
+    """How many of the first bytes of two texts, or mirrored of the last, are the same; `used` of them do not count.
+
+    Looked at in pieces that stay in the processor's cache, and the one that differs again in smaller ones."""
+    alike, most = 0, shorter - used
+    size = PIECE
+    while size and alike < most:
+        length = min(size, most - alike)
+        ends = (len(one) - alike, len(other) - alike) if mirrored else (alike + length, alike + length)
+        if one[ends[0] - length : ends[0]] == other[ends[1] - length : ends[1]]:
+            alike += length
         else:
-            high = middle - 1
-    return low
+            size = min(size, length) // 2
+    return alike
 
 
 def _point(data: bytes, offset: int) -> Point:

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from . import atm, compiler, paths, rendering
+from . import atm, compiler, paths, rendering, server
 from .child import RunError
 from .result import Aim, Result, notes, table
 from .workshop import Workshop, version
@@ -67,6 +67,8 @@ GROUPS = (
     ),
     Group(("paths",), paths.paths),
     Group(("atm",), atm.picture),
+    Group(("server-diagnostics", "server-hover", "server-completion", "server-pull"), server.small),
+    Group(("server-50k", "server-terrain"), server.large),
 )
 
 
@@ -183,7 +185,9 @@ METHOD = """\
 - Memory is the largest resident memory of the process, as the system gives it at its end.
 - The C tracer (`bench/tracer/arcs.c`) follows the same parabolas through the same layers; the run compares where
   every ray ends. Embree (`bench/embree/primary.c`) gets the same camera, triangles and spheres.
-- What is not installed is left out, and its column says so. `apt install povray libembree-dev` brings both.
+- The language servers get the same edits from one client (`bench/lsp_client.py`): a number is replaced in a text of
+  2,000 lines, and the time is taken until the diagnostics of that edit are there; then a hover and a completion.
+- What is not installed is left out, and its column says so. `apt install povray libembree-dev` brings two.
 - Nothing here is a test: no suite fails because a machine was slow.
 """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -16,10 +17,11 @@ PACKAGES = {
     "m3d_render": ROOT / "renderer/m3d_render",
     "m3d_lsp": ROOT / "lsp/m3d_lsp",
 }
+FIGURES = {"matplotlib", "PIL"}
 MAY_IMPORT = {
     "tree_sitter_m3d": {"lark"},
     "m3dc": {"tree_sitter_m3d", "tree_sitter", "numpy"},
-    "m3d_render": {"m3dc", "numpy", "OpenImageIO"},
+    "m3d_render": {"m3dc", "numpy", "OpenImageIO", *FIGURES},
     "m3d_lsp": {"m3dc", "m3d_render", "tree_sitter_m3d", "tree_sitter", "numpy", "pygls", "lsprotocol"},
 }
 
@@ -41,6 +43,12 @@ def test_dependencies_point_one_way(package: str) -> None:
     assert imports(package) <= MAY_IMPORT[package]
 
 
+def test_only_figures_need_matplotlib() -> None:
+    for module in PACKAGES["m3d_render"].rglob("*.py"):
+        if module.parent.name != "plot":
+            assert not re.search(r"^\s*(import|from) (matplotlib|PIL)\b", module.read_text(), re.MULTILINE), module
+
+
 def loaded(statement: str) -> set[str]:
     script = f"{statement}\nimport sys; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
@@ -52,6 +60,7 @@ def test_a_command_line_loads_only_what_it_needs() -> None:
     assert not compiler & {"pygls", "lsprotocol", "pyvista", "vtkmodules", "OpenImageIO", "lark", "m3d_render"}
     renderer = loaded("import m3d_render.cli")
     assert not renderer & {"pygls", "lsprotocol", "pyvista", "vtkmodules", "OpenImageIO", "lark"}
+    assert not loaded("import m3d_render.plot.cli") & (FIGURES | {"OpenImageIO", "lark"})
 
 
 def test_the_tree_knows_no_keyword() -> None:

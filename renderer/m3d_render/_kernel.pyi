@@ -9,6 +9,7 @@ from m3d_render.rendering import Request
 from m3dc.ir import SceneIR
 
 VERSION: str
+EARTH_RADIUS: float
 END_NAMES: list[str]
 LAYERS: list[tuple[str, int]]
 
@@ -22,6 +23,7 @@ class Scene:
     def __new__(cls, ir: SceneIR, finer: int) -> Scene: ...
     @property
     def observer(self) -> tuple[float, float, float] | None: ...
+    def sees(self, points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]: ...
     def render(
         self,
         request: Request,
@@ -34,3 +36,4 @@ def trace_paths(
     ir: SceneIR, height: float, slopes: NDArray[np.float64], distances: list[float], finer: int
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.uint32], NDArray[np.float64]]: ...
 def trace_crossings(ir: SceneIR, height: float, slope: float, finer: int) -> NDArray[np.float64]: ...
+def air_layers(ir: SceneIR, finer: int) -> NDArray[np.float64]: ...

@@ -19,8 +19,8 @@ class Paths:
 
     `heights[i, j]` is the height of ray i at distance `at[j]`, NaN beyond its end. A path ends at the `"ground"`
     (below the lowest layer), the `"top"` (above the highest, or the elevation limit), at the `"range"` or at the
-    number of `"segments"` that the MIRAGE block allows; `end_points[i]` is where, (distance, height). `arcs` counts
-    the parabolas of each.
+    number of `"segments"` that the MIRAGE block allows; `end_points[i]` is where, (distance, height), and
+    `end_slopes[i]` its dz/dr there, with which a ray goes on straight. `arcs` counts the parabolas of each.
     """
 
     angles: NDArray[np.float64]
@@ -28,6 +28,7 @@ class Paths:
     heights: NDArray[np.float64]
     ends: NDArray[np.str_]
     end_points: NDArray[np.float64]
+    end_slopes: NDArray[np.float64]
     arcs: NDArray[np.uint32]
 
 
@@ -46,12 +47,39 @@ def trace_paths(
     angles = np.atleast_1d(_numbers(angles_rad))
     distances = _numbers([] if at is None else at)
     try:
-        ends, points, arcs, heights = _kernel.trace_paths(
+        ends, tips, arcs, heights = _kernel.trace_paths(
             ir, _height(ir, eye_height), np.tan(angles), distances.tolist(), finer
         )
     except ValueError as error:
         raise SceneError(str(error)) from None
-    return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], points, arcs)
+    return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], tips[:, :2], tips[:, 2], arcs)
+
+
+@dataclass(frozen=True, slots=True)
+class AirLayers:
+    """The layers of a scene's air, from the lowest, one or more an interval of the temperature profile.
+
+    `bottom` and `top` in m. `curvature` is that of a level ray, 1/m, positive where it is concave toward the earth
+    (thesis eq. 2.3); `effective` the same over an earth that is drawn flat, less 1/R.
+    """
+
+    bottom: NDArray[np.float64]
+    top: NDArray[np.float64]
+    curvature: NDArray[np.float64]
+    effective: NDArray[np.float64]
+
+
+EARTH_CURVATURE: float = 1 / _kernel.EARTH_RADIUS
+"""1/R, 1/m."""
+
+
+def air_layers(ir: SceneIR, finer: int = 1) -> AirLayers:
+    """The layers that rays are traced through, up to the MIRAGE block's ELEVATION; none without a MIRAGE."""
+    try:
+        bottom, top, effective = _kernel.air_layers(ir, finer).T.copy()
+    except ValueError as error:
+        raise SceneError(str(error)) from None
+    return AirLayers(bottom, top, effective + EARTH_CURVATURE, effective)
 
 
 def trace_crossings(

@@ -18,15 +18,12 @@ from numpy.typing import NDArray
 from m3d_render import _kernel, command
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.optics import trace_crossings, trace_paths
+from m3d_render.ray_options import angles, distances
 from m3d_render.rendering import SceneError
 from m3dc.artefact import replacing
 from m3dc.ir import SceneIR
 
 HEADING = "angle_arcmin,r_m,z_m,end"
-MOST_ANGLES = 1_000_000
-QUARTER_TURN = 90 * 60
-"""Arcminutes to the zenith."""
-
 _BATCH = 1024
 
 
@@ -49,40 +46,16 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--angles",
         required=True,
-        type=_angles,
+        type=angles,
         metavar="FROM:TO:STEP",
         help="angles above the horizontal, in arcminutes; write --angles=FROM... if it is below 0",
     )
     parser.add_argument(
-        "--at", type=_distances, metavar="R1,R2,...", help="horizontal distances, m, instead of every crossing"
+        "--at", type=distances, metavar="R1,R2,...", help="horizontal distances, m, instead of every crossing"
     )
     parser.add_argument("--csv", default="-", metavar="FILE", help="where to write the table; - is standard output")
     parser.add_argument("--version", action="version", version=f"m3d-rays {_kernel.VERSION}")
     return parser
-
-
-def _angles(text: str) -> NDArray[np.float64]:
-    """All angles from FROM to TO, in arcminutes."""
-    parts = text.split(":")
-    if len(parts) != 3:
-        raise argparse.ArgumentTypeError(f"FROM:TO:STEP is expected, not '{text}'")
-    start, stop, step = (command.number(part) for part in parts)
-    if max(abs(start), abs(stop)) >= QUARTER_TURN:
-        raise argparse.ArgumentTypeError(f"angles must lie between -{QUARTER_TURN} and {QUARTER_TURN} arcminutes")
-    if step == 0 or (stop - start) / step < 0:
-        raise argparse.ArgumentTypeError(f"steps of {step:g} do not lead from {start:g} to {stop:g}")
-    # A last step that misses TO by rounding alone is still meant.
-    steps = (stop - start) / step * (1 + 1e-12) + 1e-9
-    if steps >= MOST_ANGLES:
-        raise argparse.ArgumentTypeError(f"these are more than {MOST_ANGLES:,} angles")
-    return np.array([start + step * i for i in range(math.floor(steps) + 1)], dtype=np.float64)
-
-
-def _distances(text: str) -> list[float]:
-    distances = [command.number(part) for part in text.split(",")]
-    if min(distances) < 0:
-        raise argparse.ArgumentTypeError("distances must not be below 0")
-    return distances
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -118,9 +91,9 @@ def _print(lines: Iterator[str], file: IO[str]) -> None:
     file.flush()
 
 
-def _lines(ir: SceneIR, angles: NDArray[np.float64], at: list[float] | None) -> Iterator[str]:
-    for first in range(0, len(angles), _BATCH):
-        batch = angles[first : first + _BATCH]
+def _lines(ir: SceneIR, all_angles: NDArray[np.float64], at: list[float] | None) -> Iterator[str]:
+    for first in range(0, len(all_angles), _BATCH):
+        batch = all_angles[first : first + _BATCH]
         paths = trace_paths(ir, np.radians(batch / 60), at=at)
         for i, angle in enumerate(batch):
             end = _row(angle, paths.end_points[i], paths.ends[i])

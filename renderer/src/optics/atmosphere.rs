@@ -13,7 +13,7 @@ const GRAVITY: f64 = 9.80665;
 /// Pressure at z = 0, Pa.
 const SEA_LEVEL_PRESSURE: f64 = 101_325.0;
 /// R, m.
-const EARTH_RADIUS: f64 = 6_371_000.0;
+pub const EARTH_RADIUS: f64 = 6_371_000.0;
 /// 0 °C in K.
 const CELSIUS: f64 = 273.15;
 

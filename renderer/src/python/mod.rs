@@ -8,25 +8,29 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use glam::DVec3;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use crate::camera::Size;
 use crate::film::Film;
 use crate::layer::Layer;
-use crate::optics::atmosphere::Atmosphere;
+use crate::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
 use crate::optics::path::Path;
 use crate::optics::tip::{End, Tip};
+use crate::ray::Ray;
 use crate::render::{Settings, Tally};
 use crate::scene;
 use crate::schedule::{Canvas, Tile, Watch, render};
+use crate::trace::blocked;
 
 /// How often the waiting thread looks for an interrupt.
 const LOOK: Duration = Duration::from_millis(40);
 
-/// Ray paths: why each ended, where, of how many arcs, and its heights.
+/// Ray paths: why each ended, where and how steeply, of how many arcs, and its heights.
 type Paths<'py> = (
     Bound<'py, PyArray1<u8>>,
     Bound<'py, PyArray2<f64>>,
@@ -113,6 +117,32 @@ impl Scene {
     fn observer(&self) -> Option<(f64, f64, f64)> {
         let air = self.air.as_ref()?;
         Some((air.bottom(), air.profile_top, self.scene.camera.eye.z))
+    }
+
+    /// Which points the eye sees along straight lines. What is nearer to a point than `tolerance` of its distance
+    /// does not hide it.
+    fn sees<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let points = points.as_array();
+        if points.ncols() != 3 {
+            return Err(PyValueError::new_err("points have three coordinates"));
+        }
+        let (scene, eye) = (&self.scene, self.scene.camera.eye);
+        let points: Vec<DVec3> = points.outer_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+        let sees = |stack: &mut Vec<_>, point: &DVec3| {
+            let line = *point - eye;
+            let length = line.length();
+            let ray = Ray { to: length * (1.0 - tolerance), ..Ray::new(eye, line / length) };
+            !(length > 0.0 && blocked(&scene.shapes, &scene.solid_tree, &ray, stack))
+        };
+        Ok(PyArray1::from_vec(
+            py,
+            py.detach(|| points.par_iter().map_init(Vec::new, sees).collect::<Vec<bool>>()),
+        ))
     }
 
     /// The pixels of a region. Callbacks, None or callable, are called from the calling thread:
@@ -287,7 +317,7 @@ impl Drop for Ringer<'_> {
 }
 
 /// Ray paths without a picture: for each slope dz/dr from `height`, why the path ended (a number of `END_NAMES`),
-/// where (r, z), how many arcs it has, and its heights at the given distances, NaN beyond the end.
+/// where and how steeply (r, z, dz/dr), how many arcs it has, and its heights at the given distances, NaN beyond the end.
 #[pyfunction]
 fn trace_paths<'py>(
     py: Python<'py>,
@@ -300,7 +330,7 @@ fn trace_paths<'py>(
     let air = air_around(ir, height, finer)?;
     let slopes = slopes.as_array();
     let mut ends = Vec::with_capacity(slopes.len());
-    let mut tips = Vec::with_capacity(2 * slopes.len());
+    let mut tips = Vec::with_capacity(3 * slopes.len());
     let mut arcs = Vec::with_capacity(slopes.len());
     let mut heights = Vec::with_capacity(slopes.len() * distances.len());
     let mut path = Path::new(&air);
@@ -316,7 +346,7 @@ fn trace_paths<'py>(
             (path.tip(), path.arcs().len())
         };
         ends.push(end_number(tip.end));
-        tips.extend([tip.r, tip.z]);
+        tips.extend([tip.r, tip.z, tip.slope]);
         arcs.push(count as u32);
         let mut arc = 0;
         for &distance in &distances {
@@ -325,7 +355,7 @@ fn trace_paths<'py>(
             heights.push(found.map_or(f64::NAN, |i| path.arcs()[i].height(distance)));
         }
     }
-    let tips = PyArray1::from_vec(py, tips).reshape([slopes.len(), 2])?;
+    let tips = PyArray1::from_vec(py, tips).reshape([slopes.len(), 3])?;
     let heights = PyArray1::from_vec(py, heights).reshape([slopes.len(), distances.len()])?;
     Ok((PyArray1::from_vec(py, ends), tips, PyArray1::from_vec(py, arcs), heights))
 }
@@ -347,6 +377,20 @@ fn trace_crossings<'py>(
     points.extend(path.arcs().iter().flat_map(|arc| [arc.r1, arc.z1]));
     let rows = points.len() / 2;
     PyArray1::from_vec(py, points).reshape([rows, 2])
+}
+
+/// The layers of the air, from the lowest: rows of (bottom, top, curvature of a level ray there, 1/m), positive where
+/// it is concave toward the earth, over an earth drawn flat. No row without a MIRAGE.
+#[pyfunction]
+fn air_layers<'py>(
+    py: Python<'py>,
+    ir: &Bound<'py, PyAny>,
+    finer: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let layers = ir::atmosphere(ir, finer)?.map_or(Vec::new(), |air| air.layers);
+    let rows: Vec<f64> =
+        layers.iter().flat_map(|layer| [layer.bottom, layer.top, -2.0 * layer.half_bend]).collect();
+    PyArray1::from_vec(py, rows).reshape([layers.len(), 3])
 }
 
 fn air_around(ir: &Bound<PyAny>, height: f64, finer: usize) -> PyResult<Atmosphere> {
@@ -380,6 +424,8 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
     module.add_function(wrap_pyfunction!(trace_paths, module)?)?;
     module.add_function(wrap_pyfunction!(trace_crossings, module)?)?;
+    module.add_function(wrap_pyfunction!(air_layers, module)?)?;
+    module.add("EARTH_RADIUS", EARTH_RADIUS)?;
     module.add("END_NAMES", END_NAMES.to_vec())?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
     module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())

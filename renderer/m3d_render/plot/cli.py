@@ -1,0 +1,248 @@
+"""The `m3d-plot` command: a scene in, a figure of its air, or the figure's data, out.
+
+Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from m3d_render import _kernel, command
+from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.plot import figure, profile, rays, transfer
+from m3d_render.ray_options import angles, distances
+from m3d_render.rendering import SceneError
+from m3dc.artefact import replacing
+from m3dc.ir import SceneIR
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Table = tuple[Sequence[str], Sequence[NDArray[Any]]]
+
+MOST_PANELS = 6
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.output is None and options.csv is None:
+        parser.error("where should the figure go? Give -o FIGURE, or --csv FILE for its data")
+    return command.ended(parser.prog, lambda: _run(options))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="m3d-plot",
+        description="Draw a figure of a scene's air: its temperature profile, the rays from the eye, or at which angle "
+        "each height at a distance is seen.",
+        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
+    )
+    parser.add_argument("--version", action="version", version=f"m3d-plot {_kernel.VERSION}")
+    figures = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
+    shape = _add(
+        figures,
+        _profile,
+        "profile",
+        (18, 9),
+        "temperature, its gradient and the curvature of level rays, against height",
+    )
+    _add_heights(shape)
+    fan = _add(
+        figures,
+        _rays,
+        "rays",
+        (18, 10),
+        "the fan of rays from the eye in the vertical plane of view, with layers, ground and solids in section",
+    )
+    _add_angles(fan, f"{rays.RAYS} over the picture's height")
+    fan.add_argument(
+        "--reach",
+        type=_reach,
+        metavar="R",
+        help="how far the figure goes, m (a quarter beyond the distance of VIEW TO, or of the things behind it)",
+    )
+    fan.add_argument(
+        "--turn", type=command.number, default=0.0, metavar="DEG", help="turn the plane so far to the right (0)"
+    )
+    _add_heights(fan)
+    characteristic = _add(
+        figures,
+        _transfer,
+        "transfer",
+        (18, 11),
+        "the transfer characteristic: at which angle each height at a distance is seen, and what is inverted, "
+        "stretched or compressed",
+    )
+    characteristic.add_argument(
+        "--at",
+        type=distances,
+        metavar="R1,R2,...",
+        help=f"distances, m, at most {MOST_PANELS} (that of VIEW TO, or of the things behind it)",
+    )
+    _add_angles(characteristic, f"{transfer.ANGLES} over the picture's height")
+    _add_heights(characteristic)
+    return parser
+
+
+Draw = Callable[["Figure"], None]
+Work = Callable[[SceneIR, argparse.Namespace], tuple[Table, Draw]]
+
+
+def _add(figures: Any, work: Work, name: str, size: tuple[float, float], says: str) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = figures.add_parser(name, help=says, description=f"Draw {says}.")
+    parser.set_defaults(work=work)
+    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+    parser.add_argument(
+        "-o", dest="output", metavar="FIGURE", type=Path, help=f"where to draw it: {', '.join(figure.SUFFIXES)}"
+    )
+    parser.add_argument("--csv", metavar="FILE", help="where to write its data as a table; - is standard output")
+    parser.add_argument(
+        "--size",
+        type=_size,
+        default=size,
+        metavar="WxH",
+        help=f"width and height of the figure, cm ({size[0]}x{size[1]})",
+    )
+    return parser
+
+
+def _add_angles(parser: argparse.ArgumentParser, default: str) -> None:
+    parser.add_argument(
+        "--angles",
+        type=angles,
+        metavar="FROM:TO:STEP",
+        help=f"angles above the horizontal, in arcminutes; write --angles=FROM... if it is below 0 ({default})",
+    )
+
+
+def _add_heights(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--heights", type=_heights, metavar="LOW:HIGH", help="the heights that are shown, m; --heights=LOW... as above"
+    )
+
+
+def _size(text: str) -> tuple[float, float]:
+    width, _, height = text.partition("x")
+    size = command.number(width), command.number(height)
+    if min(size) < 2 or max(size) > 100:
+        raise argparse.ArgumentTypeError("a figure is from 2 to 100 cm wide and high")
+    return size
+
+
+def _reach(text: str) -> float:
+    reach = command.number(text)
+    if reach <= 0:
+        raise argparse.ArgumentTypeError("a figure must reach farther than 0 m")
+    return reach
+
+
+def _heights(text: str) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    heights = command.number(low), command.number(high) if colon else float("nan")
+    if not heights[0] < heights[1]:
+        raise argparse.ArgumentTypeError(f"LOW:HIGH is expected, the lower height first, not '{text}'")
+    return heights
+
+
+def _run(options: argparse.Namespace) -> int:
+    output: Path | None = options.output
+    if output is not None:
+        command.check_folder(output)
+        figure.check(output)
+    if options.csv not in (None, "-"):
+        command.check_folder(Path(options.csv))
+    ir = command.load(options.scene)
+    try:
+        table, draw = options.work(ir, options)
+    except SceneError as error:
+        raise CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
+    except ValueError as error:
+        raise CommandError(USAGE_ERROR, str(error)) from None
+    if output is not None:
+        figure.save(output, options.size, draw)
+    if options.csv is not None:
+        _write(options.csv, table)
+    return FINE
+
+
+# --- the figures ----------------------------------------------------------------------------------------------------
+
+
+def _profile(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
+    found = profile.temperature_profile(ir)
+
+    def draw(paper: Figure) -> None:
+        panels = list(paper.subplots(1, 3, sharey=True))
+        profile.draw_profile(found, panels, options.heights)
+
+    return profile.table(found), draw
+
+
+def _rays(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
+    found = rays.ray_fan(ir, _radians(options.angles), options.reach, options.turn)
+    return rays.table(found), lambda paper: rays.draw_fan(found, paper.subplots(), options.heights)
+
+
+def _transfer(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
+    if options.at is not None and len(options.at) > MOST_PANELS and options.output is not None:
+        raise CommandError(USAGE_ERROR, f"a figure has room for {MOST_PANELS} distances; --csv takes any number")
+    found = transfer.transfer_characteristic(ir, options.at, _radians(options.angles))
+
+    def draw(paper: Figure) -> None:
+        panels = list(paper.subplots(1, len(found.distances), sharey=True, squeeze=False)[0])
+        for i, panel in enumerate(panels):
+            transfer.draw_transfer(found, i, panel, options.heights)
+            if i:
+                panel.set_ylabel("")
+        named = {
+            label: handle for panel in panels for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)
+        }
+        paper.legend(named.values(), named.keys(), loc="outside lower center", ncols=3, frameon=False)
+
+    return transfer.table(found), draw
+
+
+def _radians(minutes: NDArray[np.float64] | None) -> NDArray[np.float64] | None:
+    return None if minutes is None else np.radians(minutes / 60)
+
+
+# --- the table ------------------------------------------------------------------------------------------------------
+
+
+def _write(file: str, table: Table) -> None:
+    if file == "-":
+        _print(table, sys.stdout)
+        return
+    try:
+        with replacing(Path(file)) as (temporary,), temporary.open("w", encoding="utf-8") as stream:
+            _print(table, stream)
+    except OSError as error:
+        raise CommandError(USAGE_ERROR, f"{file}: {error.strerror or error}") from None
+
+
+def _print(table: Table, file: IO[str]) -> None:
+    names, columns = table
+    print(",".join(names), file=file)
+    for row in zip(*(column.tolist() for column in columns), strict=True):
+        print(",".join(_cell(value) for value in row), file=file)
+    file.flush()
+
+
+def _cell(value: float | int | str) -> str:
+    """Numbers with ten digits, which is a micrometre at ten kilometres; nothing for what there is none of."""
+    if isinstance(value, float):
+        return "" if value != value else f"{value:.10g}"
+    return str(value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

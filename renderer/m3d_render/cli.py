@@ -12,7 +12,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from m3d_render import _kernel, command
+from m3d_render import _kernel, command, wireframe_cli
 from m3d_render.command import FINE, INTERRUPTED, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.interrupt import Interrupt
 from m3d_render.metadata import metadata
@@ -36,13 +36,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return command.ended(parser.prog, lambda: _check_normals(options.scene))
     if options.output is None:
         parser.error("where should the picture go? Give -o PICTURE")
-    return command.ended(parser.prog, lambda: _run(options))
+    wireframe_cli.check_options(parser, options)
+    return command.ended(parser.prog, lambda: wireframe_cli.run(options) if options.wireframe else _run(options))
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="m3d-render",
-        usage="m3d-render SCENE -o PICTURE [options]\n       m3d-render SCENE.m3d --check-normals",
+        usage="m3d-render SCENE -o PICTURE [options]\n       m3d-render SCENE -o PICTURE --wireframe [options]\n"
+        "       m3d-render SCENE.m3d --check-normals",
         description="Render a scene to a picture; rays follow the scene's MIRAGE unless --straight.",
         epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted: the finished rows "
         "are written.",
@@ -63,6 +65,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_view(parser.add_argument_group("view, instead of the scene's"))
     _add_light(parser.add_argument_group("light and air"))
+    wireframe_cli.add_options(parser)
     more = parser.add_argument_group("beyond the thesis")
     more.add_argument(
         "--samples",

@@ -17,7 +17,8 @@ from m3d_render.plot.profile import TemperatureProfile, draw_profile, temperatur
 from m3d_render.plot.rays import RayFan, draw_fan, ray_fan
 from m3d_render.plot.section import Cut, section
 from m3d_render.plot.transfer import Transfer, Zone, draw_transfer, transfer_characteristic
-from m3d_render.plot.view_plane import ViewPlane, things_distance, view_angles
+from m3d_render.plot.view_plane import ViewPlane
+from m3d_render.sight import things_distance, view_angles
 
 __all__ = [
     "Cut",

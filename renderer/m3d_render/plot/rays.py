@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from m3d_render.optics import air_layers, trace_paths
 from m3d_render.plot.section import Cut, section
-from m3d_render.plot.view_plane import ViewPlane, things_distance, view_angles
+from m3d_render.plot.view_plane import ViewPlane
+from m3d_render.sight import things_distance, view_angles
 from m3dc.ir import PrimitiveKind, SceneIR
 
 if TYPE_CHECKING:

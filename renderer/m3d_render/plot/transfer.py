@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.plot.rays import straight_on
-from m3d_render.plot.view_plane import things_distance, view_angles
+from m3d_render.sight import things_distance, view_angles
 from m3dc.ir import SceneIR
 
 if TYPE_CHECKING:

@@ -1,0 +1,123 @@
+"""The camera of a wireframe: the scene's, or one above the scene; and its projection. Thesis 3.2."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from m3dc.ir import SceneIR, Triple, View
+
+Points = NDArray[np.float64]
+
+NEAREST = 1e-6  # scene units ahead of the eye: what is nearer is cut off
+ABOVE_FOV = 5.0  # degrees: nearly a map
+_MARGIN = 1.06
+
+
+def above(ir: SceneIR, columns: int, rows: int, *, with_eye: bool = False) -> View:
+    """A camera high above the middle of the scene's finite things (and of its eye), that looks down.
+
+    The direction of view is up or to the right in its picture, whichever shows the things larger.
+    """
+    scene = ir.scene
+    view = scene.view
+    box = [] if scene.extent is None else [scene.extent.minimum, scene.extent.maximum]
+    if with_eye or not box:
+        box = [*box, view.eye]
+    if len(box) == 1:
+        box = [*box, view.target]
+    low, high = np.min(box, axis=0), np.max(box, axis=0)
+    ahead = np.array([*view.normal[:2], 0.0])
+    if math.hypot(*ahead[:2]) < 1e-9:
+        ahead = np.array([*view.up[:2], 0.0])
+    # A map has its sides along the axes: of them the one that is nearest to the direction of view.
+    along = int(np.abs(ahead[:2]).argmax())
+    ahead = np.where(np.arange(3) == along, np.sign(ahead), 0.0)
+    left = np.cross([0.0, 0.0, 1.0], ahead)
+    spread = math.tan(math.radians(ABOVE_FOV / 2))
+    half = np.maximum((high - low) / 2, 1e-9)
+
+    def height(up: Points) -> float:
+        upward = half[int(np.abs(up).argmax())]
+        across = half[1 - int(np.abs(up[:2]).argmax())]
+        return float(max(across, upward * columns / rows)) * _MARGIN / spread
+
+    up = min((ahead, left), key=height)
+    middle = (low + high) / 2
+    eye = np.array([middle[0], middle[1], high[2] + height(up)])
+    normal = np.array([0.0, 0.0, -1.0])
+    distance = 1 / spread
+    return replace(
+        view,
+        eye=_triple(eye),
+        target=_triple(middle),
+        fov=ABOVE_FOV,
+        tilt=0.0,
+        aspect=1.0,
+        normal=_triple(normal),
+        general_up=_triple(up),
+        right=_triple(np.cross(normal, up)),
+        up=_triple(up),
+        reference_point=_triple(eye + distance * normal),
+        distance=distance,
+    )
+
+
+def _triple(vector: Points) -> Triple:
+    return float(vector[0]), float(vector[1]), float(vector[2])
+
+
+def to_camera(view: View, points: Points) -> Points:
+    """Points as (right, up, ahead) of the eye."""
+    return (points - np.array(view.eye)) @ np.array([view.right, view.up, view.normal]).T
+
+
+def before_the_eye(starts: Points, ends: Points) -> tuple[Points, Points]:
+    """The parts of lines, in the camera's coordinates, that lie before the eye."""
+    kept = np.maximum(starts[:, 2], ends[:, 2]) > NEAREST
+    starts, ends = starts[kept], ends[kept]
+    for a, b in ((starts, ends), (ends, starts)):
+        behind = a[:, 2] < NEAREST
+        share = ((NEAREST - a[behind, 2]) / (b[behind, 2] - a[behind, 2]))[:, None]
+        a[behind] = a[behind] + share * (b[behind] - a[behind])
+    return starts, ends
+
+
+def to_pixels(view: View, points: Points, columns: int, rows: int) -> Points:
+    """Column, row and nearness of points before the eye, in the camera's coordinates. Nearness is 1 over the distance
+    ahead, which is linear along a line in the picture."""
+    half_height = rows / columns * view.aspect
+    nearness = 1 / points[:, 2]
+    x, y = view.distance * points[:, 0] * nearness, view.distance * points[:, 1] * nearness
+    column = (x + 1) / 2 * (columns - 1)
+    row = (1 - y / half_height) / 2 * (rows - 1)
+    return np.stack([column, row, nearness], axis=1)
+
+
+def to_scene(view: View, pixels: Points, columns: int, rows: int) -> Points:
+    """Points of the scene at columns, rows and nearnesses: what `to_camera` and `to_pixels` undo."""
+    half_height = rows / columns * view.aspect
+    ahead = 1 / pixels[:, 2]
+    right = (2 * pixels[:, 0] / max(columns - 1, 1) - 1) * ahead / view.distance
+    up = (1 - 2 * pixels[:, 1] / max(rows - 1, 1)) * half_height * ahead / view.distance
+    return np.stack([right, up, ahead], axis=1) @ np.array([view.right, view.up, view.normal]) + np.array(view.eye)
+
+
+def within(a: Points, b: Points, columns: int, rows: int) -> tuple[Points, Points]:
+    """Lines between pixels cut to the picture (Liang and Barsky 1984), those outside left out."""
+    delta = b - a
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    for axis, size in ((0, columns), (1, rows)):
+        for sign, limit in ((-1.0, 0.5), (1.0, size - 0.5)):
+            p, q = sign * delta[:, axis], limit - sign * a[:, axis]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                t = q / p
+            low = np.where(p < 0, np.maximum(low, t), low)
+            high = np.where(p > 0, np.minimum(high, t), high)
+            low = np.where((p == 0) & (q < 0), 2.0, low)
+    kept = low <= high
+    a, delta = a[kept], delta[kept]
+    return a + low[kept, None] * delta, a + high[kept, None] * delta

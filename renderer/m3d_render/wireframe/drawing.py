@@ -1,0 +1,131 @@
+"""A wireframe in lines between pixels: what is in the picture, and which of it surfaces hide."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from m3d_render.rendering import prepare
+from m3d_render.wireframe.camera import above, before_the_eye, to_camera, to_pixels, to_scene, within
+from m3d_render.wireframe.edges import CIRCLE_STEPS, Edges, edges
+from m3d_render.wireframe.marks import MARKS, marks
+from m3d_render.wireframe.raster import Paper, raster
+from m3dc.ir import SceneIR, View
+
+Points = NDArray[np.float64]
+Hidden = Literal["show", "dim", "remove"]
+
+HIDDEN: tuple[Hidden, ...] = ("show", "dim", "remove")
+"""What becomes of lines behind surfaces: they are like all others, dashed, or left out."""
+
+_PIECE = 2.0  # pixels: how well it is known where a line is hidden
+_TOLERANCE = 1e-6  # of its distance: what a line must lie behind a surface to be hidden
+_MOST_STEPS = 4000  # of a circle
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """The lines of one thing: `starts` and `ends` (n, 3) in columns and rows of the picture and nearness (see
+    `camera.to_pixels`). `hidden` (n) says which lie behind a surface."""
+
+    name: str
+    color: Points
+    starts: Points
+    ends: Points
+    hidden: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A picture of lines, `columns` x `rows` pixels."""
+
+    columns: int
+    rows: int
+    layers: list[Layer]
+
+
+def project(
+    ir: SceneIR,
+    width: int | None = None,
+    height: int | None = None,
+    *,
+    from_above: bool = False,
+    hidden: Hidden = "show",
+    show: Iterable[str] = (),
+) -> Drawing:
+    """The lines of a scene in a picture of so many pixels (the scene's), seen by its camera or from above.
+
+    `show` names marks (MARKS). Raises SceneError where hidden lines are asked for in a scene that cannot be traced,
+    ValueError for marks there are not.
+    """
+    named = frozenset(show)
+    if not named <= set(MARKS):
+        raise ValueError(f"there is no mark {', '.join(sorted(named - set(MARKS)))}; there are {', '.join(MARKS)}")
+    scene = ir.scene
+    columns, rows = width or scene.view.width, height or scene.view.height
+    view = above(ir, columns, rows, with_eye="frustum" in named) if from_above else scene.view
+    things = edges(ir) if hidden == "show" else edges(ir, lambda *circle: _roundness(view, columns, *circle))
+    groups = [*things, *marks(ir, view, named)]
+    layers = [_layer(group, view, columns, rows) for group in groups]
+    if hidden != "show":
+        layers = list(_divided(ir, view, columns, rows, layers, [group.curved for group in groups]))
+        if hidden == "remove":
+            layers = [_without_hidden(layer) for layer in layers]
+    return Drawing(columns, rows, layers)
+
+
+def draw(
+    ir: SceneIR,
+    width: int | None = None,
+    height: int | None = None,
+    *,
+    from_above: bool = False,
+    hidden: Hidden = "show",
+    show: Iterable[str] = (),
+    paper: Paper = "black",
+) -> NDArray[np.float32]:
+    """The wireframe picture of a scene: rows x columns x 3, 0..1. Options as of `project`."""
+    return raster(project(ir, width, height, from_above=from_above, hidden=hidden, show=show), paper)
+
+
+def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:
+    starts, ends = before_the_eye(to_camera(view, group.starts), to_camera(view, group.ends))
+    a, b = within(*(to_pixels(view, points, columns, rows) for points in (starts, ends)), columns, rows)
+    return Layer(group.name, group.color, a, b, np.zeros(len(a), bool))
+
+
+def _roundness(view: View, columns: int, centre: Points, radius: float) -> int:
+    """Segments of a circle that are no longer than a piece, wherever on the sphere it is."""
+    nearest = max(float(np.linalg.norm(centre - np.array(view.eye))) - radius, 0.02 * radius)
+    pixels = radius / nearest * view.distance * (columns - 1) / 2
+    return int(np.clip(2 * np.pi * pixels / _PIECE, CIRCLE_STEPS, _MOST_STEPS))
+
+
+def _divided(
+    ir: SceneIR, view: View, columns: int, rows: int, layers: list[Layer], curved: list[bool]
+) -> Iterator[Layer]:
+    """Layers whose lines are either hidden or not: those that are hidden in part are divided."""
+    tracer = prepare(replace(ir, scene=replace(ir.scene, view=view))).kernel
+    for layer, one_piece in zip(layers, curved, strict=True):
+        across = np.abs(layer.ends - layer.starts)[:, :2].max(axis=1, initial=0.0)
+        counts = np.ones(len(across), np.int64) if one_piece else np.ceil(across / _PIECE).astype(np.int64) + 1
+        line = np.repeat(np.arange(len(counts)), counts)
+        step = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
+        delta = (layer.ends - layer.starts)[line] / counts[line, None]
+        starts = layer.starts[line] + step[:, None] * delta
+        ends = starts + delta
+        hidden = np.zeros(len(line), bool)
+        for points in (starts, ends):
+            hidden |= ~tracer.sees(to_scene(view, points, columns, rows), _TOLERANCE)
+        first = np.flatnonzero(np.append(True, (line[1:] != line[:-1]) | (hidden[1:] != hidden[:-1])))[: len(line)]
+        last = np.append(first[1:], len(line)) - 1 if len(line) else first
+        yield Layer(layer.name, layer.color, starts[first], ends[last], hidden[first])
+
+
+def _without_hidden(layer: Layer) -> Layer:
+    kept = ~layer.hidden
+    return Layer(layer.name, layer.color, layer.starts[kept], layer.ends[kept], layer.hidden[kept])

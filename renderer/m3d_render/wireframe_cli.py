@@ -1,0 +1,99 @@
+"""The wireframe of `m3d-render --wireframe`: its options, and what is written."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from m3d_render import _kernel, command
+from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.picture import SUFFIXES, PictureError, check_suffix, write_picture
+from m3d_render.rendering import SceneError
+from m3d_render.wireframe.drawing import HIDDEN, project
+from m3d_render.wireframe.marks import MARKS
+from m3d_render.wireframe.raster import PAPERS, raster
+from m3d_render.wireframe.svg import svg
+from m3dc.artefact import replacing
+
+WITHOUT_EFFECT = ("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples")
+WITHOUT_EFFECT += ("refract_reflections", "aov", "threads", "stats")
+"""Options of a rendered picture that say nothing of a wireframe."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the wireframe's options to those of m3d-render."""
+    group = parser.add_argument_group("wireframe, instead of a rendered picture")
+    group.add_argument(
+        "--wireframe", action="store_true", help="draw the edges of everything, with straight rays; PICTURE may be .svg"
+    )
+    group.add_argument("--from-above", action="store_true", help="not from the scene's camera, but as a map")
+    group.add_argument(
+        "--hidden",
+        choices=HIDDEN,
+        default="show",
+        help="lines behind surfaces: show them like all others (the default), dim them to dashes, or remove them",
+    )
+    group.add_argument(
+        "--show", type=_marks, default=(), metavar="NAME,...", help=f"draw besides: {', '.join(MARKS)}; or all"
+    )
+    group.add_argument("--paper", choices=PAPERS, default="black", help="what the lines are drawn on (black)")
+
+
+def _marks(text: str) -> tuple[str, ...]:
+    names = MARKS if text == "all" else tuple(text.split(","))
+    unknown = [name for name in names if name not in MARKS]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is none of {', '.join(MARKS)}")
+    return names
+
+
+def check_options(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+    """Ends the command where options of a wireframe and of a rendered picture are mixed."""
+
+    def given(names: tuple[str, ...]) -> list[str]:
+        found = [name for name in names if getattr(options, name) != parser.get_default(name)]
+        return [f"--{name.replace('_', '-')}" for name in found]
+
+    if options.wireframe:
+        idle = given(WITHOUT_EFFECT)
+        if idle:
+            parser.error(f"{idle[0]} has no effect on a --wireframe; leave one of them out")
+    else:
+        idle = given(("from_above", "hidden", "show", "paper"))
+        if idle:
+            parser.error(f"{idle[0]} is an option of --wireframe; add that")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Draws the wireframe that the options ask for."""
+    output: Path = options.output
+    vectors = output.suffix.lower() == ".svg"
+    if not vectors:
+        try:
+            check_suffix(output)
+        except PictureError:
+            known = ", ".join((".svg", *SUFFIXES))
+            raise CommandError(USAGE_ERROR, f"{output}: one of {known} must name the wireframe's format") from None
+    command.check_folder(output)
+    ir = command.load(options.scene)
+    try:
+        drawing = project(
+            ir, options.width, options.height, from_above=options.from_above, hidden=options.hidden, show=options.show
+        )
+    except SceneError as error:
+        raise CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
+    described = {
+        "Software": f"m3d-render {_kernel.VERSION}",
+        "ImageDescription": f"{command.name(options.scene)}; wireframe{' from above' if options.from_above else ''}",
+    }
+    try:
+        if vectors:
+            with replacing(output) as (temporary,):
+                temporary.write_text(svg(drawing, options.paper), encoding="utf-8")
+        else:
+            write_picture(output, raster(drawing, options.paper), described)
+    except PictureError as error:
+        raise CommandError(USAGE_ERROR, str(error)) from None
+    except OSError as error:
+        raise CommandError(USAGE_ERROR, f"{output}: {error.strerror or error}") from None
+    return FINE

@@ -48,9 +48,10 @@ generate: tools ## Write everything that is made of grammar/language.toml
 	$(BIN)/python docs/m3ir.py
 	$(BIN)/python docs/diagnostics.py
 
-gallery: programs ## Render the pictures of the documentation anew
+gallery: tools ## Render the pictures of the documentation anew
 	$(BIN)/python docs/gallery.py
 	$(BIN)/python docs/texture_pictures.py
+	$(BIN)/python docs/mirages.py
 
 bench: tools ## Measure speed and memory, beside POV-Ray where it is installed
 	$(BIN)/python -m bench

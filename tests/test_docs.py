@@ -19,7 +19,7 @@ from m3dc.report import print_human
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-COMMANDS = {"m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "mirage3d"}
+COMMANDS = {"m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "mirage3d", "python"}
 
 
 def blocks(language: str) -> list[tuple[str, str]]:

@@ -23,11 +23,14 @@ from m3dc.artefact import replacing
 from m3dc.ir import SceneIR
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Table = tuple[Sequence[str], Sequence[NDArray[Any]]]
 
 MOST_PANELS = 6
+LEGEND_COLUMN = 5.2
+"""Width, cm, of the longest entry of a legend."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -189,7 +192,13 @@ def _profile(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
 
 def _rays(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
     found = rays.ray_fan(ir, _radians(options.angles), options.reach, options.turn)
-    return rays.table(found), lambda paper: rays.draw_fan(found, paper.subplots(), options.heights)
+
+    def draw(paper: Figure) -> None:
+        panel = paper.subplots()
+        rays.draw_fan(found, panel, options.heights)
+        _add_legend(paper, [panel])
+
+    return rays.table(found), draw
 
 
 def _transfer(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
@@ -203,12 +212,19 @@ def _transfer(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
             transfer.draw_transfer(found, i, panel, options.heights)
             if i:
                 panel.set_ylabel("")
-        named = {
-            label: handle for panel in panels for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)
-        }
-        paper.legend(named.values(), named.keys(), loc="outside lower center", ncols=3, frameon=False)
+        _add_legend(paper, panels)
 
     return transfer.table(found), draw
+
+
+def _add_legend(paper: Figure, panels: Sequence[Axes]) -> None:
+    """Below all panels, in as many columns as there is room for."""
+    named: dict[str, Any] = {}
+    for panel in panels:
+        handles, labels = panel.get_legend_handles_labels()
+        named.update(zip(labels, handles, strict=True))
+    columns = max(1, int(paper.get_figwidth() * 2.54 / LEGEND_COLUMN))
+    paper.legend(named.values(), named.keys(), loc="outside lower center", ncols=columns, frameon=False)
 
 
 def _radians(minutes: NDArray[np.float64] | None) -> NDArray[np.float64] | None:

@@ -138,7 +138,7 @@ def height_range(fan: RayFan) -> tuple[float, float]:
 
 def draw_fan(fan: RayFan, axes: Axes, heights: tuple[float, float] | None = None) -> None:
     """Draws the fan: rays (dashed where the air bends them no longer), crossings as circles, layers as light lines,
-    solids in section and the ground. `heights` are the lowest and highest shown, m."""
+    solids in section and the ground, all with labels for a legend. `heights` are the lowest and highest shown, m."""
     low, high = height_range(fan) if heights is None else heights
     reach = fan.distances[-1] / 1000
     kilometres = fan.distances / 1000
@@ -172,7 +172,6 @@ def draw_fan(fan: RayFan, axes: Axes, heights: tuple[float, float] | None = None
             label="neighbouring rays cross",
         )
     axes.set(xlabel="distance, km", ylabel="height, m", xlim=(0, reach), ylim=(low, high))
-    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.16), ncols=5, frameon=False)
 
 
 def _draw_cut(cut: Cut, axes: Axes, label: str) -> None:

@@ -125,8 +125,8 @@ _LINES = {"inverted": {"linestyle": (0, (4, 1.5)), "linewidth": 1.6}}
 
 
 def draw_transfer(found: Transfer, i: int, axes: Axes, heights: tuple[float, float] | None = None) -> None:
-    """Draws the characteristic at distance i, with its zones; a thin line is what straight rays would show.
-    `heights` are the lowest and highest shown, m."""
+    """Draws the characteristic at distance i, with its zones; a thin line is what straight rays would show. All
+    have labels for a legend. `heights` are the lowest and highest shown, m."""
     minutes = np.degrees(found.angles) * 60
     named: set[str] = set()
     for zone in found.zones(i):

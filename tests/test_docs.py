@@ -19,7 +19,8 @@ from m3dc.report import print_human
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-COMMANDS = {"m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "mirage3d", "python"}
+COMMANDS = {"m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "mirage3d"}
+EXAMPLE_SCRIPT = "python examples/"
 
 
 def blocks(language: str) -> list[tuple[str, str]]:
@@ -58,7 +59,7 @@ def test_python_runs(block: tuple[str, str], folder: Path) -> None:
 
 def commands() -> list[str]:
     lines = [line.split("#")[0].strip() for _, text in blocks("") for line in text.splitlines()]
-    return [line for line in lines if line.split(" ")[0] in COMMANDS]
+    return [line for line in lines if line.split(" ")[0] in COMMANDS or line.startswith(EXAMPLE_SCRIPT)]
 
 
 def test_commands_run(folder: Path) -> None:

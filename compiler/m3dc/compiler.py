@@ -29,6 +29,11 @@ class Result(NamedTuple):
         """Whether the IR is complete: no diagnostic is an error."""
         return not has_errors(self.diagnostics)
 
+    def _repr_html_(self) -> str:
+        from .notebook import result_html  # here, because only notebooks ask
+
+        return result_html(self)
+
 
 def compile(source: str | bytes | Source, name: str = "") -> Result:
     """Compile a scene. Never raises on any text; `name` is what to call it in the IR and in messages."""

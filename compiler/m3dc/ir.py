@@ -313,6 +313,11 @@ class SceneIR:
     def __getitem__(self, table: str) -> Table:
         return self.tables[table]
 
+    def _repr_html_(self) -> str:
+        from .notebook import scene_html  # here, because only notebooks ask
+
+        return scene_html(self)
+
 
 def empty_tables() -> dict[str, Table]:
     """Every table of TABLES without a row."""

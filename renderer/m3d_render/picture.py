@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import tempfile
 from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -71,6 +72,13 @@ def write_picture(
             pixels = np.rint(np.clip(picture, 0.0, 1.0) * levels).astype(kind)
             _write_image(temporary, pixels, _spec(pixels, metadata or {}))
     return [target]
+
+
+def png(picture: NDArray[np.floating]) -> bytes:
+    """The bytes of a PNG file of a picture."""
+    with tempfile.TemporaryDirectory() as folder:
+        (file,) = write_picture(Path(folder) / "picture.png", picture)
+        return file.read_bytes()
 
 
 def check_suffix(target: Path) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from m3d_render import _kernel
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
+from m3d_render.picture import png
 from m3dc.ir import SceneIR
 
 Layers: TypeAlias = dict[str, NDArray[np.float32]]
@@ -65,6 +66,10 @@ class Rendering:
     build: float
     trace: float
     threads: int
+
+    def _repr_png_(self) -> bytes | None:
+        """The picture for a notebook; None where no row was finished."""
+        return png(self.picture) if self.picture.size else None
 
 
 @dataclass(frozen=True, slots=True)

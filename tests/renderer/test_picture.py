@@ -1,5 +1,6 @@
 """Pictures in files."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import OpenImageIO
 import pytest
 
 import m3d_render
+import m3dc
 from m3d_render.picture import to_bytes
 
 
@@ -62,3 +64,12 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, picture, monkeypatch):
 def test_a_folder_that_does_not_exist(tmp_path, picture):
     with pytest.raises(m3d_render.PictureError, match="No such file"):
         m3d_render.write_picture(tmp_path / "none" / "a.exr", picture)
+
+
+def test_a_rendering_shows_itself_in_a_notebook(tmp_path):
+    scene = m3dc.compile("SCENE { SKY { } VIEW { WIDTH 16 HEIGHT 10 } } SOLID { SPHERE { } }").ir
+    rendering = m3d_render.prepare(scene).render()
+    (tmp_path / "a.png").write_bytes(rendering._repr_png_())
+    pixels = OpenImageIO.ImageBuf(str(tmp_path / "a.png")).get_pixels(OpenImageIO.UINT8)
+    np.testing.assert_array_equal(pixels, to_bytes(rendering.picture))
+    assert replace(rendering, picture=rendering.picture[:0])._repr_png_() is None, "there is nothing to see"

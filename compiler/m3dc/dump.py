@@ -32,20 +32,28 @@ def dump(scene: SceneIR, date: str) -> str:
     return "\n".join([*heading, *(line.text for line in lines(scene))]) + "\n"
 
 
-def lines(scene: SceneIR) -> Iterator[Line]:
-    """The lines of the dump after its heading."""
+def lines(scene: SceneIR, most_rows: int | None = None) -> Iterator[Line]:
+    """The lines of the dump after its heading. Of a mesh's vertices and facets no more than `most_rows` each are
+    shown."""
     spans = scene.scene.spans
     yield from _section("Scene Definition", _scene(scene), spans.get("SCENE"))
     yield from _section("View Plane", _view(scene), spans.get("VIEW"))
-    for title, table, body in (("Solid", "solids", _solid), ("Light", "lights", _light)):
-        places = scene[table]["span"].tolist()
-        for number, row in enumerate(reversed(range(len(places))), 1):
-            start, end = places[row]
-            yield from _section(f"{title} Object Definition # {number}", body(scene, row), (start, end))
+    yield from object_lines(scene, None, most_rows)
     if scene.scene.sky is not None:
         yield from _section("Sky", _sky(scene), spans.get("SKY"))
     if scene.scene.mirage is not None:
         yield from _section("Mirage Definition", _mirage(scene), spans.get("MIRAGE"))
+
+
+def object_lines(scene: SceneIR, only: Span | None, most_rows: int | None = None) -> Iterator[Line]:
+    """The lines about all solids and lights, or only about the one that stands at a place of the source."""
+    for title, table, body in (("Solid", "solids", _solid), ("Light", "lights", _light)):
+        places = scene[table]["span"].tolist()
+        for number, row in enumerate(reversed(range(len(places))), 1):
+            start, end = places[row]
+            if only is None or only == (start, end):
+                heading = f"{title} Object Definition # {number}"
+                yield from _section(heading, body(scene, row, most_rows), (start, end))
 
 
 # --- forms --------------------------------------------------------------------------------------------------------
@@ -165,11 +173,11 @@ def _mirage(ir: SceneIR) -> Iterator[str | Line]:
 # --- objects ------------------------------------------------------------------------------------------------------
 
 
-def _solid(ir: SceneIR, row: int) -> Iterator[str | Line]:
+def _solid(ir: SceneIR, row: int, most_rows: int | None) -> Iterator[str | Line]:
     yield from _transforms(ir["solids"], row)
     yield "Attributes"
     yield from _indented(_surface(ir, row))
-    yield from _primitives(ir, "solids", row)
+    yield from _primitives(ir, "solids", row, most_rows)
 
 
 def _surface(ir: SceneIR, row: int) -> Iterator[str]:
@@ -228,10 +236,10 @@ def _texture(ir: SceneIR, row: int) -> Iterator[str]:
         yield from _transforms(ir["textures"], row)
 
 
-def _light(ir: SceneIR, row: int) -> Iterator[str | Line]:
+def _light(ir: SceneIR, row: int, most_rows: int | None) -> Iterator[str | Line]:
     yield from _transforms(ir["lights"], row)
     yield from _source(ir, row, "Specular Hilights")
-    yield from _primitives(ir, "lights", row)
+    yield from _primitives(ir, "lights", row, most_rows)
 
 
 def _source(ir: SceneIR, row: int, highlights: str) -> Iterator[str]:
@@ -254,7 +262,7 @@ def _source(ir: SceneIR, row: int, highlights: str) -> Iterator[str]:
 # --- primitives ---------------------------------------------------------------------------------------------------
 
 
-def _primitives(ir: SceneIR, table: str, owner: int) -> Iterator[str | Line]:
+def _primitives(ir: SceneIR, table: str, owner: int, most_rows: int | None) -> Iterator[str | Line]:
     first, count = int(ir[table]["first_primitive"][owner]), int(ir[table]["primitive_count"][owner])
     primitives = ir["primitives"]
     yield _field("Number primitives", count)
@@ -262,13 +270,13 @@ def _primitives(ir: SceneIR, table: str, owner: int) -> Iterator[str | Line]:
         kind = PrimitiveKind(int(primitives["kind"][row]))
         start, end = primitives["span"][row].tolist()
         yield Line(kind.name.capitalize(), (start, end))
-        for line in _shape(ir, kind, int(primitives["row"][row])):
+        for line in _shape(ir, kind, int(primitives["row"][row]), most_rows):
             yield Line(INDENT + line, (start, end))
         for line in _transforms(primitives, row):
             yield Line(INDENT + line, (start, end))
 
 
-def _shape(ir: SceneIR, kind: PrimitiveKind, row: int) -> Iterator[str]:
+def _shape(ir: SceneIR, kind: PrimitiveKind, row: int, most_rows: int | None) -> Iterator[str]:
     shape = {name: column[row] for name, column in ir[PRIMITIVE_TABLE[kind]].items()}
     if kind is PrimitiveKind.SPHERE:
         yield _field("Radius", float(shape["radius"]))
@@ -276,7 +284,7 @@ def _shape(ir: SceneIR, kind: PrimitiveKind, row: int) -> Iterator[str]:
         yield from _triple("North Pole", shape["pole"])
         yield from _triple("Equator", shape["equator"])
     elif "phong" in shape:
-        yield from _mesh(ir, shape)
+        yield from _mesh(ir, shape, most_rows)
     else:
         point, u, v = shape["point"], shape["u"], shape["v"]
         yield from _triple("Reference P", point)
@@ -290,18 +298,27 @@ def _shape(ir: SceneIR, kind: PrimitiveKind, row: int) -> Iterator[str]:
             yield from _triple("V4", point + u + v)
 
 
-def _mesh(ir: SceneIR, mesh: dict[str, Any]) -> Iterator[str]:
+def _mesh(ir: SceneIR, mesh: dict[str, Any], most_rows: int | None) -> Iterator[str]:
     first, count = int(mesh["first_vertex"]), int(mesh["vertex_count"])
+    shown = count if most_rows is None else min(count, most_rows)
     yield _field("Phong", _yes(mesh["phong"]))
     yield _field("Number vertices", count)
-    for number, (x, y, z) in enumerate(ir["vertices"]["position"][first : first + count].tolist()):
+    for number, (x, y, z) in enumerate(ir["vertices"]["position"][first : first + shown].tolist()):
         yield f"{INDENT}{number}\t{x + 0.0:f}\t{y + 0.0:f}\t{z + 0.0:f}"
+    yield from _more(count - shown)
     facet, facets = int(mesh["first_facet"]), int(mesh["facet_count"])
+    shown = facets if most_rows is None else min(facets, most_rows)
     yield _field("Number facets", facets)
-    corners = (ir["facets"]["vertex"][facet : facet + facets] - first).tolist()
-    normals = ir["facets"]["normal"][facet : facet + facets]
+    corners = (ir["facets"]["vertex"][facet : facet + shown] - first).tolist()
+    normals = ir["facets"]["normal"][facet : facet + shown]
     for number, (a, b, c) in enumerate(corners):
         yield f"{INDENT}{number}\t{a}\t{b}\t{c}"
         if mesh["phong"] and normals[number, 0] >= 0:
             for x, y, z in ir["normals"]["direction"][normals[number]].tolist():
                 yield f"{INDENT * 2}\t{x + 0.0:f}\t{y + 0.0:f}\t{z + 0.0:f}"
+    yield from _more(facets - shown)
+
+
+def _more(rows: int) -> Iterator[str]:
+    if rows:
+        yield f"{INDENT}... and {rows} more"

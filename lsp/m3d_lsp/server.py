@@ -12,7 +12,7 @@ from typing import Any
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from . import feature
+from . import feature, view
 from .document import Document
 from .documents import Documents
 from .feature import diagnostics
@@ -105,7 +105,7 @@ class Server(LanguageServer):
 def make_server() -> Server:
     """A server with every feature."""
     server = Server()
-    for module in feature.MODULES:
+    for module in (*feature.MODULES, *view.MODULES):
         log.debug("feature %s", module.__name__)
     for entry in REQUESTS:
         server.feature(entry.method, entry.options)(_answer(server, entry))

@@ -12,15 +12,15 @@ _STEEPEST = math.radians(89)
 
 
 def view_angles(ir: SceneIR) -> tuple[float, float]:
-    """Angles above the horizontal, rad, of the lowest and the highest pixel of the picture's middle column."""
+    """Angles above the horizontal, rad, of the lowest and the highest pixel of the picture's middle column; the nadir
+    and the zenith, where they are in the picture, count as 89 degrees."""
     view = ir.scene.view
     half_height = view.height / view.width * view.aspect
-    low, high = sorted(
-        math.atan2(z, math.hypot(x, y))
-        for x, y, z in (
-            view.distance * np.array(view.normal) + sign * half_height * np.array(view.up) for sign in (-1, 1)
-        )
-    )
+    ahead, up = view.distance * np.array(view.normal), half_height * np.array(view.up)
+    ends = (ahead - up, ahead + up)
+    low, high = sorted(math.atan2(z, math.hypot(x, y)) for x, y, z in ends)
+    if float(ends[0][:2] @ ends[1][:2]) <= 0:  # they are on different sides of the vertical
+        low, high = (-_STEEPEST, high) if ahead[2] < 0 else (low, _STEEPEST)
     return max(low, -_STEEPEST), min(high, _STEEPEST)
 
 

@@ -12,6 +12,7 @@ import m3dc
 from m3d_render import plot, prepare
 from m3d_render.optics import EARTH_CURVATURE, trace_paths
 from m3d_render.rendering import SceneError
+from m3d_render.sight import view_angles
 from m3dc.ir import PrimitiveKind, TextureKind
 
 MILLIMETRE = 1e-3
@@ -157,6 +158,17 @@ def test_the_plane_turns_to_the_right():
     cuts = plot.section(ir, plot.ViewPlane.of(ir, math.degrees(math.atan2(30, 100))))
     ball = next(cut for cut in cuts if cut.solid == 6)
     np.testing.assert_allclose(ball.segments[:, 0, 0].mean(), math.hypot(30, 100), atol=0.02)
+
+
+def test_angles_of_a_view():
+    def angles(to):
+        ir = m3dc.compile(f"SCENE {{ VIEW {{ FROM <0,0,9> TO <{to}> FOV 60 WIDTH 9 HEIGHT 9 }} }} LIGHT {{ }}").ir
+        return np.degrees(view_angles(ir))
+
+    np.testing.assert_allclose(angles("9,0,9"), [-30, 30])
+    np.testing.assert_allclose(angles("9,0,0"), [-75, -15])
+    np.testing.assert_allclose(angles("0,0,0"), [-89, -60], err_msg="straight down")
+    np.testing.assert_allclose(angles("1,0,20"), [90 - math.degrees(math.atan2(1, 11)) - 30, 89])
 
 
 def test_what_is_looked_at():

@@ -118,6 +118,8 @@ def test_zones_are_told_apart_without_colour(compiled):
         (["rays", "merman.m3ir", "-o", "fan.svg", "--size=1x900"], 2, "from 2 to 100 cm"),
         (["transfer", "merman.m3ir", "-o", "t.svg", "--angles=4:2:-1"], 2, "must increase"),
         (["transfer", "merman.m3ir", "-o", "t.svg", "--at=1,2,3,4,5,6,7"], 2, "room for 6 distances"),
+        (["rays", "merman.m3ir", "--csv=-", "--angles=0:900:0.001"], 2, "take larger steps"),
+        (["transfer", "merman.m3ir", "--csv=-", "--angles=0:900:0.001", "--at=" + "9," * 99 + "9"], 2, "larger steps"),
         (["profile", "straight.m3d", "-o", "p.svg"], 1, "no MIRAGE"),
         (["profile", "none.m3d", "-o", "p.svg"], 2, "No such file"),
     ],

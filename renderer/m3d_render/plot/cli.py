@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 Table = tuple[Sequence[str], Sequence[NDArray[Any]]]
 
 MOST_PANELS = 6
+MOST_POINTS = 20_000_000
 LEGEND_COLUMN = 5.2
 """Width, cm, of the longest entry of a legend."""
 
@@ -191,6 +192,7 @@ def _profile(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
 
 
 def _rays(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
+    _check_points(0 if options.angles is None else len(options.angles) * rays.STEPS)
     found = rays.ray_fan(ir, _radians(options.angles), options.reach, options.turn)
 
     def draw(paper: Figure) -> None:
@@ -204,6 +206,8 @@ def _rays(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
 def _transfer(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
     if options.at is not None and len(options.at) > MOST_PANELS and options.output is not None:
         raise CommandError(USAGE_ERROR, f"a figure has room for {MOST_PANELS} distances; --csv takes any number")
+    angle_count = transfer.ANGLES if options.angles is None else len(options.angles)
+    _check_points(angle_count * len(options.at or [0]))
     found = transfer.transfer_characteristic(ir, options.at, _radians(options.angles))
 
     def draw(paper: Figure) -> None:
@@ -215,6 +219,12 @@ def _transfer(ir: SceneIR, options: argparse.Namespace) -> tuple[Table, Draw]:
         _add_legend(paper, panels)
 
     return transfer.table(found), draw
+
+
+def _check_points(count: int) -> None:
+    if count > MOST_POINTS:
+        message = f"the data would have {count:,} points, and at most {MOST_POINTS:,} are traced: take larger steps"
+        raise CommandError(USAGE_ERROR, message)
 
 
 def _add_legend(paper: Figure, panels: Sequence[Axes]) -> None:

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 RAYS = 41
 """How many rays a fan has that is not told."""
 
-_STEPS = 800
+STEPS = 800
+"""Distances at which the height of a ray is known, but for the first."""
 _BEYOND = 1.25  # of the distance of things: how far a fan reaches that is not told
 
 
@@ -77,7 +78,7 @@ def ray_fan(
     eye = ir.scene.view.eye[2]
     if reach is None:
         reach = _BEYOND * things_distance(ir) or 1.0
-    distances = np.linspace(0, reach, _STEPS + 1)
+    distances = np.linspace(0, reach, STEPS + 1)
     heights, bent, ends = straight_on(angles, eye, ir, distances)
     crossings, crossing_angles = _crossings(angles, distances, heights)
     layers = air_layers(ir)
@@ -140,44 +141,58 @@ def draw_fan(fan: RayFan, axes: Axes, heights: tuple[float, float] | None = None
     """Draws the fan: rays (dashed where the air bends them no longer), crossings as circles, layers as light lines,
     solids in section and the ground, all with labels for a legend. `heights` are the lowest and highest shown, m."""
     low, high = height_range(fan) if heights is None else heights
-    reach = fan.distances[-1] / 1000
-    kilometres = fan.distances / 1000
-    axes.hlines(fan.boundaries, 0, reach, colors="0.8", linewidths=0.4, label="layers of the air")
+    unit, metres = ("km", 1000.0) if fan.distances[-1] >= 1000 else ("m", 1.0)
+    distances = fan.distances / metres
+    reach = distances[-1]
+    air = len(fan.boundaries) > 0
+    if air:
+        axes.hlines(fan.boundaries, 0, reach, colors="0.8", linewidths=0.4, label="layers of the air")
     for i, ray in enumerate(fan.heights):
-        bent = fan.distances <= fan.bent[i]
-        axes.plot(kilometres[bent], ray[bent], "k", linewidth=0.5, label="" if i else "rays")
+        bent = fan.distances <= (fan.bent[i] if air else math.inf)
+        axes.plot(distances[bent], ray[bent], "k", linewidth=0.5, label="" if i else "rays")
         # From the last bent point on, so that there is no gap.
         straight = ~bent | np.append(~bent[1:], False)
         if not bent.all():
-            axes.plot(kilometres[straight], ray[straight], "k", linewidth=0.4, linestyle=(0, (6, 3)))
+            axes.plot(distances[straight], ray[straight], "k", linewidth=0.4, linestyle=(0, (6, 3)))
     levels = [cut.level for cut in fan.cuts if cut.level is not None]
     if levels:
         axes.fill_between(
-            [0, reach], [max(levels)] * 2, low, facecolor="0.85", edgecolor="0.3", hatch="///", label="ground"
+            [0, reach],
+            [max(levels)] * 2,
+            low,
+            facecolor="0.85",
+            edgecolor="0.3",
+            hatch="///",
+            zorder=2.5,
+            label="ground",
         )
     label = "solids in section"
     for cut in fan.cuts:
         if len(cut.segments):
-            _draw_cut(cut, axes, label)
+            _draw_cut(cut.kind, cut.segments / (metres, 1), axes, label)
             label = ""
     if len(fan.crossings):
         axes.plot(
-            fan.crossings[:, 0] / 1000,
+            fan.crossings[:, 0] / metres,
             fan.crossings[:, 1],
             "o",
+            zorder=4,
             markersize=3.5,
             markerfacecolor="w",
             markeredgecolor="k",
             markeredgewidth=0.7,
             label="neighbouring rays cross",
         )
-    axes.set(xlabel="distance, km", ylabel="height, m", xlim=(0, reach), ylim=(low, high))
+    axes.set(xlabel=f"distance, {unit}", ylabel="height, m", xlim=(0, reach), ylim=(low, high))
 
 
-def _draw_cut(cut: Cut, axes: Axes, label: str) -> None:
-    points = cut.segments / (1000, 1)
-    if cut.kind is PrimitiveKind.SPHERE:
-        axes.fill(points[:, 0, 0], points[:, 0, 1], facecolor="0.6", edgecolor="k", linewidth=1.2, label=label)
+def _draw_cut(kind: PrimitiveKind, points: NDArray[np.float64], axes: Axes, label: str) -> None:
+    if kind is PrimitiveKind.SPHERE:
+        axes.fill(
+            points[:, 0, 0], points[:, 0, 1], facecolor="0.6", edgecolor="k", linewidth=1.2, zorder=3, label=label
+        )
         return
     for i, segment in enumerate(points):
-        axes.plot(segment[:, 0], segment[:, 1], "k", linewidth=2.5, solid_capstyle="butt", label="" if i else label)
+        axes.plot(
+            segment[:, 0], segment[:, 1], "k", linewidth=2.5, solid_capstyle="butt", zorder=3, label="" if i else label
+        )

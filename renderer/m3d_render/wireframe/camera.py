@@ -17,18 +17,16 @@ ABOVE_FOV = 5.0  # degrees: nearly a map
 _MARGIN = 1.06
 
 
-def above(ir: SceneIR, columns: int, rows: int, *, with_eye: bool = False) -> View:
-    """A camera high above the middle of the scene's finite things (and of its eye), that looks down.
+def above(ir: SceneIR, columns: int, rows: int, marked: Points) -> View:
+    """A camera high above the middle of the scene's finite things and of `marked` points (n, 3), that looks down. If
+    there is neither, it looks at the scene's eye and target.
 
-    The direction of view is up or to the right in its picture, whichever shows the things larger.
+    The direction of view is up or to the right in its picture, whichever shows all of it larger.
     """
     scene = ir.scene
     view = scene.view
-    box = [] if scene.extent is None else [scene.extent.minimum, scene.extent.maximum]
-    if with_eye or not box:
-        box = [*box, view.eye]
-    if len(box) == 1:
-        box = [*box, view.target]
+    box = list(marked) if scene.extent is None else [*marked, scene.extent.minimum, scene.extent.maximum]
+    box = box or [view.eye, view.target]
     low, high = np.min(box, axis=0), np.max(box, axis=0)
     ahead = np.array([*view.normal[:2], 0.0])
     if math.hypot(*ahead[:2]) < 1e-9:
@@ -43,7 +41,8 @@ def above(ir: SceneIR, columns: int, rows: int, *, with_eye: bool = False) -> Vi
     def height(up: Points) -> float:
         upward = half[int(np.abs(up).argmax())]
         across = half[1 - int(np.abs(up[:2]).argmax())]
-        return float(max(across, upward * columns / rows)) * _MARGIN / spread
+        # What is narrow and high, such as an observer above a plane, is seen with something around it.
+        return float(max(across, upward * columns / rows, half[2])) * _MARGIN / spread
 
     up = min((ahead, left), key=height)
     middle = (low + high) / 2

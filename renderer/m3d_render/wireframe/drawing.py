@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from m3d_render.rendering import prepare
 from m3d_render.wireframe.camera import above, before_the_eye, to_camera, to_pixels, to_scene, within
 from m3d_render.wireframe.edges import CIRCLE_STEPS, Edges, edges
-from m3d_render.wireframe.marks import MARKS, marks
+from m3d_render.wireframe.marks import MARKS, frustum_points, marks
 from m3d_render.wireframe.raster import Paper, raster
 from m3dc.ir import SceneIR, View
 
@@ -67,7 +67,8 @@ def project(
         raise ValueError(f"there is no mark {', '.join(sorted(named - set(MARKS)))}; there are {', '.join(MARKS)}")
     scene = ir.scene
     columns, rows = width or scene.view.width, height or scene.view.height
-    view = above(ir, columns, rows, with_eye="frustum" in named) if from_above else scene.view
+    marked = frustum_points(ir) if "frustum" in named else np.zeros((0, 3))
+    view = above(ir, columns, rows, marked) if from_above else scene.view
     things = edges(ir) if hidden == "show" else edges(ir, lambda *circle: _roundness(view, columns, *circle))
     groups = [*things, *marks(ir, view, named)]
     layers = [_layer(group, view, columns, rows) for group in groups]

@@ -43,6 +43,11 @@ def marks(ir: SceneIR, seen_by: View, names: frozenset[str]) -> Iterator[Edges]:
             yield _edges(_axis(seen_by, axis, letter, size), _AXIS_COLORS[axis], "axes")
 
 
+def frustum_points(ir: SceneIR) -> Points:
+    """The ends of the frustum's lines (n, 3)."""
+    return np.array([point for line in _frustum(ir) for point in line])
+
+
 def _edges(lines: list[tuple[Points, Points]], color: Points, name: str) -> Edges:
     starts, ends = zip(*lines, strict=True)
     return Edges(np.array(starts, float), np.array(ends, float), np.asarray(color, float), name)

@@ -16,6 +16,8 @@ from . import feature, view
 from .document import Document
 from .documents import Documents
 from .feature import diagnostics
+from .preview import requests as preview
+from .preview.previews import Previews
 from .protocol import Protocol
 from .registry import REQUESTS, SERVER_REQUESTS, Request, ServerRequest
 from .settings import read_settings
@@ -27,12 +29,13 @@ SECTION = "m3d"
 
 
 class Server(LanguageServer):
-    """A language server for scenes. `documents` are the open ones."""
+    """A language server for scenes. `documents` are the open ones, `previews` the pictures of them."""
 
     def __init__(self) -> None:
         super().__init__("m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
         self.documents = Documents(self._looked_at)
-        self._closing: list[Callable[[], None]] = []
+        self.previews = Previews()
+        self._closing: list[Callable[[], None]] = [self.previews.stop]
 
     def on_close(self, close: Callable[[], None]) -> None:
         """Have something called when the server ends."""
@@ -105,7 +108,7 @@ class Server(LanguageServer):
 def make_server() -> Server:
     """A server with every feature."""
     server = Server()
-    for module in (*feature.MODULES, *view.MODULES):
+    for module in (*feature.MODULES, *view.MODULES, preview):
         log.debug("feature %s", module.__name__)
     for entry in REQUESTS:
         server.feature(entry.method, entry.options)(_answer(server, entry))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from editor import Editor, Scene, position
-from lsprotocol import types
+from editor import Editor, Scene
+from own_requests import edit, to_range
 from pygls.exceptions import JsonRpcInvalidParams
 
 import m3dc
@@ -27,20 +27,6 @@ async def ask(editor: Editor, method: str, scene: Scene, mark: str | None = None
         at = scene.places[mark]
         params["position"] = {"line": at.line, "character": at.character}
     return await editor.client.protocol.send_request_async(method, params)
-
-
-def to_range(given: Any) -> types.Range:
-    return types.Range(
-        types.Position(given.start.line, given.start.character), types.Position(given.end.line, given.end.character)
-    )
-
-
-def edit(editor: Editor, scene: Scene, old: str, new: str) -> Scene:
-    """Put other words in place of some that stand in a scene once."""
-    start = scene.text.index(old)
-    range_ = types.Range(position(scene.text, start), position(scene.text, start + len(old)))
-    editor.change(scene, types.TextDocumentContentChangePartial(range_, new))
-    return scene._replace(text=scene.text.replace(old, new))
 
 
 async def test_the_dump_is_that_of_the_compiler(editor: Editor) -> None:

@@ -19,7 +19,7 @@ ROOT = GRAMMAR.parent
 
 def outputs() -> dict[Path, str]:
     """Every generated file and its text."""
-    from . import automaton, formal, keywords, queries, reference
+    from . import automaton, formal, keywords, queries, reference, snippets, textmate
 
     language = table.load(GRAMMAR / "language.toml")
     files = {GRAMMAR / "keywords.js": keywords.text(language)}
@@ -28,6 +28,9 @@ def outputs() -> dict[Path, str]:
     files[GRAMMAR / "tree_sitter_m3d/automaton.json"] = automaton.text(grammar)
     files |= {GRAMMAR / "queries" / name: text for name, text in queries.texts(language).items()}
     files |= {ROOT / "docs/language" / name: text for name, text in reference.pages(language).items()}
+    extension = ROOT / "vscode-extension"
+    files[extension / "syntaxes/m3d.tmLanguage.json"] = textmate.text(language)
+    files[extension / "snippets/m3d.json"] = snippets.text(language)
     return files
 
 

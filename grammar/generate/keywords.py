@@ -1,9 +1,10 @@
-"""The keyword sets that grammar.js imports."""
+"""The keyword sets that grammar.js imports, and the roles by which editors colour keywords."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from tree_sitter_m3d.table import Block, Language
 
@@ -32,6 +33,27 @@ def _by_form(blocks: Iterable[Block]) -> dict[str, list[str]]:
     for block in sorted(blocks, key=lambda block: block.keyword):
         by_form["types" if block.variable else "blocks"].append(block.keyword)
     return by_form
+
+
+class Roles(NamedTuple):
+    """Every keyword, by what it looks like in an editor. AMBIENT is in `both`: a block here, a property there."""
+
+    types: frozenset[str]
+    properties: frozenset[str]
+    flags: frozenset[str]
+    both: frozenset[str]
+    others: frozenset[str]
+
+
+def roles(language: Language) -> Roles:
+    """Blocks and basic types; statements with arguments and tables; statements without; and what is none of these."""
+    statements = {word: s for block in language.blocks.values() for word, s in block.statements.items()}
+    tables = {word for block in language.blocks.values() for word in block.tables}
+    both = frozenset(set(language.blocks) & set(statements))
+    flags = frozenset(word for word, statement in statements.items() if statement.is_flag) - both
+    properties = frozenset((set(statements) | tables) - flags - both)
+    types = frozenset({*language.blocks, *language.basics}) - both
+    return Roles(types, properties, flags, both, language.keywords - types - properties - flags - both)
 
 
 def text(language: Language) -> str:

@@ -74,22 +74,15 @@ def _any_of(words: Iterable[str], capture: str) -> str:
 
 
 def _highlights(language: Language) -> str:
-    sets = keywords.sets(language)
-    statements = {word: s for block in language.blocks.values() for word, s in block.statements.items()}
-    blocks = set(language.blocks)
-    both = blocks & set(statements)
-    flags = {word for word, statement in statements.items() if statement.is_flag} - both
-    properties = (set(statements) | set(sets["tables"])) - flags - both
-    types = (blocks | set(language.basics)) - both
-    other = language.keywords - types - properties - flags - both
+    roles = keywords.roles(language)
     parts = [
         "; Blocks and types, members, flags, and what is none of these.\n",
-        _any_of(types, "@type"),
-        _any_of(properties, "@property"),
-        _any_of(flags, "@attribute"),
-        _any_of(other, "@keyword"),
+        _any_of(roles.types, "@type"),
+        _any_of(roles.properties, "@property"),
+        _any_of(roles.flags, "@attribute"),
+        _any_of(roles.others, "@keyword"),
     ]
-    for word in sorted(both):
+    for word in sorted(roles.both):
         parts.append(f'(block keyword: "{word}" @type)\n\n(statement keyword: "{word}" @property)\n')
     return "\n".join(parts) + FIXED_HIGHLIGHTS
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -43,14 +44,17 @@ def test_the_check_tells_what_is_not_current(tmp_path: Path) -> None:
     copy = tmp_path / "grammar"
     ignore = shutil.ignore_patterns("parser-generator", "build", "__pycache__", "*.so")
     shutil.copytree(GRAMMAR, copy, ignore=ignore)
-    shutil.copytree(ROOT / "docs/language", tmp_path / "docs/language")
+    for folder in ("docs/language", "vscode-extension/syntaxes", "vscode-extension/snippets"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
     table = copy / "language.toml"
-    table.write_text(table.read_text("utf-8").replace("block.SPHERE.statement.RADIUS", "block.SPHERE.statement.SIZE"))
+    changed = table.read_text("utf-8").replace("block.SPHERE.statement.RADIUS", "block.SPHERE.statement.SIZE")
+    table.write_text(changed.replace('usual = ["CENTER", "RADIUS"]', 'usual = ["CENTER", "SIZE"]'))
     command = [sys.executable, "-P", "-c", "import sys; sys.path.insert(0, '.'); from generate.__main__ import main; "]
     command[-1] += "sys.exit(main())"
     check = subprocess.run([*command, "--check"], cwd=copy, capture_output=True, text=True, check=False)
     assert check.returncode == 1
-    for file in ("language.json", "keywords.js", "m3d.lark", "automaton.json", "highlights.scm", "primitives.md"):
+    files = ["language.json", "keywords.js", "m3d.lark", "automaton.json", "highlights.scm", "primitives.md"]
+    for file in (*files, "m3d.tmLanguage.json", "m3d.json"):
         assert f"{file} is not current" in check.stderr
     write = subprocess.run(command, cwd=copy, capture_output=True, text=True, check=False)
     assert write.returncode == 0, write.stderr
@@ -95,6 +99,14 @@ def test_the_highlight_query_knows_every_keyword() -> None:
         assert f'"{keyword}"' in tree_sitter_m3d.HIGHLIGHTS_QUERY
 
 
+def test_the_textmate_grammar_knows_every_keyword() -> None:
+    grammar = json.loads((ROOT / "vscode-extension/syntaxes/m3d.tmLanguage.json").read_text("utf-8"))
+    rules = [re.compile(rule["match"]) for rule in grammar["repository"]["keyword"]["patterns"]]
+    for keyword in KEYWORDS:
+        assert any(rule.fullmatch(keyword) for rule in rules), keyword
+        assert not any(rule.search(f"{keyword}_2 x{keyword}") for rule in rules), keyword
+
+
 def test_the_reference_describes_every_keyword() -> None:
     pages = {file.name: file.read_text("utf-8") for file in (ROOT / "docs/language").glob("*.md")}
     text = "\n".join(pages.values())
@@ -109,8 +121,6 @@ def test_the_reference_describes_every_keyword() -> None:
 
 
 def test_the_links_of_the_reference_lead_somewhere() -> None:
-    import re
-
     pages = {file.name: file.read_text("utf-8") for file in (ROOT / "docs/language").glob("*.md")}
     for text in pages.values():
         for page, anchor in re.findall(r"\]\(([\w.]+)(?:#(\w+))?\)", text):

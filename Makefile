@@ -1,5 +1,5 @@
-# `make help` lists the commands. They need python3 (3.11 or newer, with venv), a C compiler and cargo; everything else
-# is brought into .venv.
+# `make help` lists the commands. They need python3 (3.11 or newer, with venv), a C compiler and cargo, and for the VS
+# Code extension node 20 and npm; everything else is brought into .venv and vscode-extension/node_modules.
 
 PYTHON ?= python3
 VENV := .venv
@@ -7,14 +7,19 @@ BIN := $(VENV)/bin
 OUT := out
 export UV_PYTHON_DOWNLOADS := never
 UV := $(BIN)/uv
+EXTENSION := vscode-extension
+# The rest of a recipe's line is left out where there is no node, except in CI.
+NEEDS_NODE := if ! command -v npm > /dev/null; then \
+	echo "The VS Code extension is not looked at: there is no npm (node 20 or newer)."; test -z "$$CI"; exit; fi;
 CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint format generate gallery bench programs tools
+.PHONY: help demo test test-extension test-workbench lint lint-extension format generate gallery bench vsix
+.PHONY: programs tools modules
 
 help: ## Show this list
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
-		printf '  make %-10s %s\n' "$$name" "$$text"; done
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
+		printf '  make %-15s %s\n' "$$name" "$$text"; done
 
 demo: programs ## Render the merman scene with straight and with bent rays into out/
 	@mkdir -p $(OUT)
@@ -27,6 +32,13 @@ demo: programs ## Render the merman scene with straight and with bent rays into 
 test: tools ## Run all tests
 	$(BIN)/python -m pytest -q
 	$(CARGO_TEST)
+	@$(MAKE) --no-print-directory test-extension
+
+test-extension: ## Run the tests of the VS Code extension that need no VS Code
+	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && cd $(EXTENSION) && npm test --silent
+
+test-workbench: tools vsix ## Drive the extension in a real VS Code; screenshots in out/screenshots/; needs chromium and rg
+	$(EXTENSION)/test/e2e/run.sh $(OUT)
 
 lint: tools ## Check style, types and that generated files are current
 	$(BIN)/ruff check
@@ -36,6 +48,10 @@ lint: tools ## Check style, types and that generated files are current
 	cargo clippy --quiet --all-targets --manifest-path renderer/Cargo.toml -- -D warnings
 	$(BIN)/m3dfmt --check examples/*.m3d
 	cd grammar && ../$(BIN)/python -m generate --check
+	@$(MAKE) --no-print-directory lint-extension
+
+lint-extension: ## Check style and types of the VS Code extension
+	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && cd $(EXTENSION) && npm run --silent check
 
 format: tools ## Lay out the Python and Rust code
 	$(BIN)/ruff check --fix --quiet
@@ -56,6 +72,11 @@ gallery: tools ## Render the pictures of the documentation anew
 bench: tools ## Measure speed and memory, beside POV-Ray where it is installed
 	$(BIN)/python -m bench
 
+vsix: modules ## Pack the VS Code extension into out/
+	@mkdir -p $(OUT)
+	@rm -f $(OUT)/m3d-*.vsix
+	cd $(EXTENSION) && npm run --silent pack -- --out $(CURDIR)/$(OUT)/
+
 # --- what the commands above need ------------------------------------------------------------------------------------
 
 $(UV):
@@ -68,3 +89,10 @@ programs: $(UV)
 
 tools: $(UV)
 	@$(UV) sync --quiet --inexact
+
+# npm ci leaves this file; it is as old as what it installed.
+modules: $(EXTENSION)/node_modules/.package-lock.json
+
+$(EXTENSION)/node_modules/.package-lock.json: $(EXTENSION)/package-lock.json
+	cd $(EXTENSION) && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@touch $@

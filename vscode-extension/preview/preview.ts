@@ -1,0 +1,393 @@
+/**
+ * A preview: pictures of a scene in an element of a page. It decides what is rendered when, and how large.
+ *
+ * `new Preview(element, host)` is all there is to do; style.css goes with it.
+ */
+
+import { Exposure, type Limits, type Quality } from "./exposure";
+import type { Events, Hit, Host, Mask, Optics, Options, Scene, Show } from "./host";
+import { listenToKeys, listenToPointer } from "./input";
+import { css, hitText, pixelText } from "./readout";
+import { Stage } from "./stage";
+import { badge } from "./state";
+import { View } from "./view";
+import { Viewport, type Point } from "./viewport";
+
+/** How long the text has rested before a full picture is made, in ms. */
+const REST = 400;
+
+/** How long the pointer has rested before it is asked what it is on, in ms. */
+const DWELL = 120;
+
+export class Preview implements Events {
+  private readonly viewport = new Viewport();
+  private readonly view: View;
+  private readonly stage: Stage;
+  private readonly exposures: Record<Optics, Exposure>;
+  private readonly masks: Record<Optics, Mask | null> = { mirage: null, straight: null };
+  private readonly fresh: Record<Optics, boolean> = { mirage: false, straight: false };
+  private options_: Options = {
+    show: "mirage",
+    typingResolution: 0.5,
+    resolution: "pane",
+    samples: 1,
+    pinned: false,
+  };
+  private scene_: Scene | null = null;
+  private isVisible = true;
+  /** There would have been a rendering, had anybody seen it. */
+  private missed = false;
+  private reason: string | null = null;
+  private divider = 0.5;
+  private rest: ReturnType<typeof setTimeout> | undefined;
+  private dwell: ReturnType<typeof setTimeout> | undefined;
+  private pointer: { at: Point; optics: Optics; hit: string } | null = null;
+  private asked = 0;
+  private readonly masksAsked: Record<Optics, number> = { mirage: 0, straight: 0 };
+  private drawn = 0;
+
+  constructor(
+    root: HTMLElement,
+    private readonly host: Host,
+  ) {
+    const wishes = {
+      point: (at: Point | null) => this.point(at),
+      step: (x: number, y: number) => this.step(x, y),
+      reveal: (at: Point | null, whole: boolean) => void this.reveal(at, whole),
+      pan: (x: number, y: number) => this.look(() => this.viewport.moveBy(x, y)),
+      zoom: (factor: number, about?: Point) => this.look(() => this.viewport.zoomBy(factor, about)),
+      fit: () => this.look(() => this.viewport.fit()),
+      actual: () => this.look(() => this.viewport.zoomTo(1 / devicePixelRatio)),
+      show: (show: Show) => this.options({ show }),
+    };
+    this.view = new View(root, {
+      ...wishes,
+      wholeSize: (on) => this.options({ resolution: on ? "scene" : "pane" }),
+      save: () => this.save(),
+      pin: (pinned) => host.pin(pinned),
+      divide: (part) => this.divide(part),
+    });
+    this.stage = new Stage(this.view.canvas, this.viewport);
+    const exposure = (optics: Optics): Exposure =>
+      new Exposure(
+        optics,
+        host,
+        () => {
+          this.fresh[optics] = false;
+          this.refresh();
+        },
+        () => void this.askMask(optics),
+      );
+    this.exposures = { mirage: exposure("mirage"), straight: exposure("straight") };
+    listenToPointer(this.view.canvas, wishes);
+    listenToKeys(this.view.canvas, wishes);
+    this.view.pane.addEventListener("m3d-drag", (event) => this.drag((event as CustomEvent<number>).detail));
+    new ResizeObserver(() => this.resize()).observe(this.view.pane);
+    this.resize();
+    this.options({});
+    host.listen(this);
+  }
+
+  // --- what the host tells -------------------------------------------------------------------------------------
+
+  scene(scene: Scene): void {
+    if (scene.id !== this.scene_?.id) {
+      for (const optics of ["mirage", "straight"] as const) {
+        this.exposures[optics].clear();
+        this.masks[optics] = null;
+      }
+      this.viewport.fit();
+      this.pointer = null;
+    }
+    const first = this.shown().every(({ answer }) => answer === null);
+    this.scene_ = scene;
+    // A text with errors has no picture of its own; the last good one is asked for only if it is not there.
+    if (scene.render && (first || !scene.errors)) {
+      this.render(first ? "full" : "draft");
+    }
+    this.refresh();
+  }
+
+  again(): void {
+    this.render("full");
+  }
+
+  options(options: Partial<Options>): void {
+    const before = this.options_;
+    this.options_ = { ...before, ...options };
+    const { show, resolution, pinned, samples } = this.options_;
+    this.view.setShow(show);
+    this.view.setPinned(pinned);
+    this.view.setWholeSize(resolution === "scene");
+    if (show !== before.show || resolution !== before.resolution || samples !== before.samples) {
+      const version = this.scene_?.version ?? 0;
+      this.render(
+        "full",
+        this.shown().filter((exposure) => !exposure.isWhole(version, this.limits(exposure, "full"))),
+      );
+    }
+    this.refresh();
+  }
+
+  cursor(): void {
+    for (const { optics } of this.shown()) {
+      void this.askMask(optics);
+    }
+  }
+
+  visible(visible: boolean): void {
+    this.isVisible = visible;
+    if (visible && this.missed) {
+      this.render("full");
+    }
+  }
+
+  blocked(reason: string | null): void {
+    const freed = reason === null && this.reason !== null;
+    this.reason = reason;
+    if (freed) {
+      this.render("full");
+    }
+    this.refresh();
+  }
+
+  save(): void {
+    this.host.save(this.pointer?.optics ?? this.shown()[0]?.optics ?? "mirage");
+  }
+
+  // --- what a person wishes ------------------------------------------------------------------------------------
+
+  private look(change: () => void): void {
+    change();
+    this.refresh();
+  }
+
+  private divide(part: number): void {
+    this.divider = part;
+    this.refresh();
+  }
+
+  private drag(clientX: number): void {
+    const x = clientX - this.view.pane.getBoundingClientRect().left;
+    this.divide(Math.min(Math.max(this.viewport.fraction({ x, y: 0 }).x, 0), 1));
+  }
+
+  private point(at: Point | null): void {
+    clearTimeout(this.dwell);
+    const found = at === null ? null : this.pixel(at);
+    this.pointer = found === null ? null : { ...found, hit: "" };
+    this.asked++;
+    if (found !== null) {
+      this.dwell = setTimeout(() => void this.ask(), DWELL);
+    }
+    this.refresh();
+  }
+
+  private step(x: number, y: number): void {
+    const optics = this.pointer?.optics ?? this.shown()[0]?.optics ?? "mirage";
+    const size = this.exposures[optics].shown;
+    if (size === null) {
+      return;
+    }
+    const from = this.pointer?.at ?? { x: Math.floor(size.width / 2), y: Math.floor(size.height / 2) };
+    const at = {
+      x: Math.min(Math.max(from.x + x, 0), size.width - 1),
+      y: Math.min(Math.max(from.y + y, 0), size.height - 1),
+    };
+    const side = (at.x + 0.5) / size.width < this.divider ? "mirage" : "straight";
+    this.pointer = { at, optics: this.options_.show === "both" ? side : optics, hit: "" };
+    clearTimeout(this.dwell);
+    this.dwell = setTimeout(() => void this.ask(), DWELL);
+    this.refresh();
+  }
+
+  private async reveal(at: Point | null, whole: boolean): Promise<void> {
+    const found = at === null ? this.pointer : this.pixel(at);
+    if (found === null) {
+      return;
+    }
+    const hit = await this.pick(found.optics, found.at);
+    if (hit !== null) {
+      this.host.reveal(hit, whole);
+    }
+  }
+
+  /** Asks what the pixel pointed at shows. */
+  private async ask(): Promise<void> {
+    const { pointer } = this;
+    const asked = ++this.asked;
+    if (pointer === null || this.reason !== null) {
+      return;
+    }
+    const hit = await this.pick(pointer.optics, pointer.at);
+    if (asked === this.asked && this.pointer === pointer) {
+      pointer.hit = hitText(hit);
+      this.refresh();
+    }
+  }
+
+  private async pick(optics: Optics, at: Point): Promise<Hit | null> {
+    try {
+      return await this.host.pick(optics, at.x, at.y);
+    } catch {
+      return null; // the picture has gone meanwhile
+    }
+  }
+
+  private async askMask(optics: Optics): Promise<void> {
+    const asked = ++this.masksAsked[optics];
+    let mask: Mask | null = null;
+    try {
+      mask = this.exposures[optics].answer === null ? null : await this.host.mask(optics);
+    } catch {
+      // The picture has gone meanwhile.
+    }
+    if (asked === this.masksAsked[optics]) {
+      this.masks[optics] = mask;
+      this.refresh();
+    }
+  }
+
+  // --- rendering -----------------------------------------------------------------------------------------------
+
+  private shown(): Exposure[] {
+    const { show } = this.options_;
+    return show === "both" ? [this.exposures.mirage, this.exposures.straight] : [this.exposures[show]];
+  }
+
+  private render(quality: Quality, exposures = this.shown()): void {
+    clearTimeout(this.rest);
+    this.missed = !this.isVisible;
+    if (this.scene_ === null || !this.isVisible || this.reason !== null) {
+      return;
+    }
+    for (const exposure of exposures) {
+      exposure.request(quality, this.limits(exposure, quality));
+    }
+    if (quality === "draft") {
+      this.rest = setTimeout(() => this.render("full"), REST);
+    }
+  }
+
+  private limits(exposure: Exposure, quality: Quality): Limits {
+    const { resolution, typingResolution, samples } = this.options_;
+    const pane = {
+      width: Math.max(Math.round(this.view.pane.clientWidth * devicePixelRatio), 16),
+      height: Math.max(Math.round(this.view.pane.clientHeight * devicePixelRatio), 16),
+    };
+    if (quality === "draft") {
+      const { width, height } = exposure.full ?? pane;
+      return {
+        maxWidth: Math.max(Math.round(width * typingResolution), 16),
+        maxHeight: Math.max(Math.round(height * typingResolution), 16),
+        samples: 1,
+      };
+    }
+    return resolution === "scene" ? { samples } : { maxWidth: pane.width, maxHeight: pane.height, samples };
+  }
+
+  /** The pane has another size. A larger one may hold a larger picture. */
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.view.pane;
+    const grown = this.shown().some(({ full }) => full?.limited === true && this.isSmaller(full));
+    this.viewport.setPane(clientWidth, clientHeight);
+    this.stage.resize(clientWidth, clientHeight, devicePixelRatio);
+    if (grown && this.options_.resolution === "pane") {
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => this.render("full"), REST);
+    }
+    this.refresh(true);
+  }
+
+  /** Whether a picture is notably smaller than the pane. */
+  private isSmaller(full: { width: number; height: number }): boolean {
+    const { clientWidth, clientHeight } = this.view.pane;
+    return Math.min(clientWidth / full.width, clientHeight / full.height) * devicePixelRatio > 1.02;
+  }
+
+  // --- showing -------------------------------------------------------------------------------------------------
+
+  /** The pixel at a point of the pane, and the picture it is of. */
+  private pixel(at: Point): { at: Point; optics: Optics } | null {
+    const { show } = this.options_;
+    const side = this.viewport.fraction(at).x < this.divider ? "mirage" : "straight";
+    const optics = show === "both" ? side : show;
+    const { shown } = this.exposures[optics];
+    const pixel = shown === null ? null : this.viewport.pixel(at, shown);
+    return pixel === null ? null : { at: pixel, optics };
+  }
+
+  /** Draws before the next frame, once for however many changes. */
+  private refresh(atOnce = false): void {
+    if (atOnce) {
+      this.draw();
+    } else {
+      this.drawn ||= requestAnimationFrame(() => this.draw());
+    }
+  }
+
+  private draw(): void {
+    this.drawn = 0;
+    const shown = this.shown();
+    const { mirage, straight } = this.exposures;
+    const full = shown.find((exposure) => exposure.full !== null)?.full ?? shown[0]?.shown;
+    if (full) {
+      this.viewport.setPicture(full.width, full.height);
+    }
+    for (const { optics, shown: bitmap } of shown) {
+      if (!this.fresh[optics]) {
+        this.stage.update(optics, bitmap);
+        this.fresh[optics] = true;
+      }
+    }
+    const { pointer } = this;
+    const under = pointer === null ? null : this.exposures[pointer.optics].shown;
+    this.stage.draw({
+      show: this.options_.show,
+      divider: this.divider,
+      layers: {
+        mirage: { bitmap: mirage.shown, mask: this.masks.mirage },
+        straight: { bitmap: straight.shown, mask: this.masks.straight },
+      },
+      pixel: pointer === null || under === null ? null : { at: pointer.at, size: under },
+    });
+    const { frame } = this.viewport;
+    this.view.setDivider(this.divider, frame.x + this.divider * frame.width);
+    this.view.setZoom(this.viewport.scale * devicePixelRatio);
+    this.view.setName(this.scene_?.name ?? "no scene", full ? `, ${full.width} by ${full.height} pixels` : "");
+    this.showState(shown);
+    if (pointer === null || under === null) {
+      this.view.setReadout(this.summary(shown), null, "");
+    } else {
+      const color = under.color(pointer.at.x, pointer.at.y);
+      const text = pixelText(pointer.at, color, pointer.optics);
+      this.view.setReadout(text, color === null ? null : css(color), pointer.hit);
+    }
+  }
+
+  private showState(shown: Exposure[]): void {
+    const answers = shown.map(({ answer }) => answer);
+    const rendering = shown.some((exposure) => exposure.rendering);
+    const version = this.scene_?.version ?? 0;
+    const progress = Math.min(...shown.map((exposure) => exposure.progress));
+    const state = badge({
+      blocked: this.reason,
+      error: shown.find(({ error }) => error !== null)?.error ?? null,
+      rendering,
+      progress,
+      stale: this.scene_?.errors === true || answers.some((answer) => answer?.stale === true),
+      outdated: answers.some((answer) => answer !== null && answer.version < version),
+      any: shown.some((exposure) => exposure.shown !== null),
+    });
+    this.view.setBadge(state, progress);
+  }
+
+  /** What is shown, while no pixel is pointed at. */
+  private summary(shown: Exposure[]): string {
+    const parts = shown.flatMap(({ answer, optics }) =>
+      answer === null ? [] : `${optics} ${answer.width} × ${answer.height} in ${answer.seconds.toFixed(2)} s`,
+    );
+    const flat = shown.some(({ answer }) => answer?.bent === false);
+    return parts.join("   ") + (flat ? "   no MIRAGE in the scene: both are the same" : "");
+  }
+}

@@ -1,0 +1,65 @@
+/** Writes a scene's picture, whole and at its own size, into a file that a person chooses. */
+
+import * as path from "node:path";
+import * as vscode from "vscode";
+
+import type { Optics } from "../../preview/host";
+import * as protocol from "../protocol";
+import type { Server } from "../server";
+
+const KINDS = { "PNG, 8 bits": ["png"], "OpenEXR, floating point": ["exr"], "TIFF, 16 bits": ["tif", "tiff"] };
+
+export async function savePicture(
+  server: Server,
+  document: vscode.TextDocument,
+  optics: Optics,
+  samples: number,
+): Promise<void> {
+  if (!vscode.workspace.isTrusted) {
+    await tellRestricted();
+    return;
+  }
+  const target = await vscode.window.showSaveDialog({
+    title: `Save the picture of ${path.basename(document.uri.path)} (${optics})`,
+    defaultUri: beside(document.uri),
+    filters: KINDS,
+  });
+  if (target === undefined) {
+    return;
+  }
+  const params = { textDocument: { uri: document.uri.toString() }, optics, path: target.fsPath, samples };
+  const name = path.basename(target.fsPath);
+  const saved = await vscode.window.withProgress(
+    { location: vscode.ProgressLocation.Notification, title: `Rendering ${name}`, cancellable: true },
+    (_, token) =>
+      server.request(protocol.save, params, token).catch((fault: unknown): protocol.Saved => {
+        const message = fault instanceof Error ? fault.message : String(fault);
+        return { status: token.isCancellationRequested ? "cancelled" : "error", path: target.fsPath, message };
+      }),
+  );
+  if (saved.status === "error") {
+    void vscode.window.showErrorMessage(`${name} was not written: ${saved.message ?? "the server gave no reason"}`);
+  } else if (saved.status === "done") {
+    const chosen = await vscode.window.showInformationMessage(`${name} is written.`, "Open");
+    if (chosen === "Open") {
+      await vscode.commands.executeCommand("vscode.open", target);
+    }
+  }
+}
+
+export async function tellRestricted(): Promise<void> {
+  const manage = "Manage Workspace Trust";
+  const message = "Nothing is rendered or run in Restricted Mode.";
+  if ((await vscode.window.showWarningMessage(message, manage)) === manage) {
+    await vscode.commands.executeCommand("workbench.trust.manage");
+  }
+}
+
+/** scene.png beside scene.m3d; an unsaved scene's goes into the workspace's folder. */
+function beside(scene: vscode.Uri): vscode.Uri {
+  const name = `${path.basename(scene.path, ".m3d")}.png`;
+  if (scene.scheme === "file") {
+    return vscode.Uri.joinPath(scene, "..", name);
+  }
+  return vscode.Uri.joinPath(vscode.workspace.workspaceFolders?.[0]?.uri ?? vscode.Uri.file("/"), name);
+}

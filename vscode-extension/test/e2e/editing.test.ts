@@ -1,0 +1,254 @@
+/**
+ * A person at work: a scene is opened, mended, renamed, laid out, looked at. One VS Code and one page for all; the
+ * steps are carried out in their order.
+ */
+
+import assert from "node:assert/strict";
+import * as fs from "node:fs";
+import * as path from "node:path";
+import { after, before, test } from "node:test";
+
+import { latencies, median } from "./latency";
+import { OUT, startVSCode, type VSCode } from "./vscode";
+import { Workbench } from "./workbench";
+
+const SCENE = "merman.m3d";
+const BALLS = "two-balls.m3d";
+
+/** Places of the merman's picture, as parts of its size. */
+const SKY: [number, number] = [0.1, 0.1];
+const PILLAR: [number, number] = [0.336, 0.47];
+const WALL: [number, number] = [0.5, 0.47];
+
+let vscode: VSCode;
+let workbench: Workbench;
+const measured: Record<string, unknown> = {};
+
+before(async () => {
+  vscode = await startVSCode();
+  workbench = await Workbench.open(vscode);
+});
+
+after(async () => {
+  fs.writeFileSync(path.join(OUT, "workbench.json"), `${JSON.stringify(measured, null, 2)}\n`);
+  await workbench.close();
+  await vscode.stop();
+});
+
+test("a scene opens, coloured, and the server starts", async () => {
+  await workbench.openScene(SCENE);
+  await workbench.page.locator('.statusbar-item[aria-label*="Mirage3D: the language server runs"]').waitFor();
+  const colors = new Set<string>();
+  for (const word of ["SCENE", "FROM", "LOGSCALE"]) {
+    colors.add(await workbench.word(SCENE, word).evaluate((span) => getComputedStyle(span).color));
+  }
+  assert.ok(colors.size > 1, "blocks and properties have one colour");
+});
+
+test("a squiggle appears as an error is typed, and goes as it is mended", async () => {
+  const editor = workbench.editor(SCENE);
+  await workbench.goTo(SCENE, "ZENITH 20");
+  await workbench.page.keyboard.press("Delete");
+  await editor.locator(".squiggly-error").first().waitFor();
+  await workbench.page.keyboard.press("Control+Shift+m");
+  await workbench.page.locator('.markers-panel .monaco-list-row[aria-label*="ENITH"]').first().waitFor();
+  await workbench.screenshot("problem");
+  await workbench.page.keyboard.press("Control+Shift+m");
+  await editor.locator(".view-lines").click({ position: { x: 5, y: 5 } });
+  await workbench.page.keyboard.press("Control+z");
+  await editor.locator(".squiggly-error").first().waitFor({ state: "detached" });
+});
+
+test("a keyword tells what it means", async () => {
+  await workbench.goTo(SCENE, "LOGSCALE");
+  await workbench.word(SCENE, "LOGSCALE").hover();
+  const hover = workbench.page.locator(".monaco-hover:not(.hidden)").first();
+  await hover.getByText("Brightens the dark parts").waitFor();
+  await workbench.screenshot("hover");
+  await workbench.page.keyboard.press("Escape");
+});
+
+test("a statement is completed", async () => {
+  await workbench.goTo(SCENE, "LOGSCALE 15");
+  await workbench.page.keyboard.type("SHAD");
+  const row = workbench.page.locator('.suggest-widget.visible .monaco-list-row[aria-label^="SHADOWS"]').first();
+  await row.waitFor();
+  await workbench.screenshot("completion");
+  await row.click();
+  await workbench.page.keyboard.press("Enter");
+  await workbench.save();
+  assert.match(workbench.read(SCENE), /SHADOWS\s+LOGSCALE 15/);
+  assert.equal(await workbench.editor(SCENE).locator(".squiggly-error").count(), 0);
+});
+
+test("a variable is renamed wherever it stands", async () => {
+  await workbench.openScene(BALLS);
+  const before = workbench.read(BALLS).match(/\bbronze\b/g)?.length ?? 0;
+  assert.ok(before > 2);
+  await workbench.goTo(BALLS, "bronze =");
+  await workbench.page.keyboard.press("F2");
+  const box = workbench.page.locator(".rename-box input");
+  await box.waitFor();
+  await box.fill("copper");
+  await workbench.page.keyboard.press("Enter");
+  await box.waitFor({ state: "hidden" });
+  await workbench.page.locator(".tab.active.dirty").waitFor();
+  await workbench.save();
+  const text = workbench.read(BALLS);
+  const comments = text.match(/\/\*.*?\*\//gs)?.join("").match(/\bbronze\b/g)?.length ?? 0;
+  assert.equal(text.match(/\bcopper\b/g)?.length, before - comments);
+});
+
+test("a scene is laid out", async () => {
+  await workbench.goTo(BALLS, "ball = {");
+  await workbench.page.keyboard.type("      ");
+  await workbench.command("M3D: Format Scene");
+  await workbench.save();
+  assert.match(workbench.read(BALLS), /^ball = \{ CENTER < -2, 0, 1 > \}$/m);
+});
+
+test("a colour is picked", async () => {
+  await workbench.goTo(BALLS, "yellow = <");
+  const line = workbench.find(BALLS, "yellow = <").line;
+  await workbench.editor(BALLS).locator(".colorpicker-color-decoration").first().waitFor();
+  const row = workbench.editor(BALLS).locator(".view-line", { hasText: /yellow\s=\s</ });
+  await row.locator(".colorpicker-color-decoration").first().click();
+  const box = workbench.page.locator(".colorpicker-widget .saturation-box").first();
+  await box.waitFor();
+  await workbench.screenshot("colour");
+  const before = workbench.read(BALLS);
+  await box.click({ position: { x: 60, y: 30 } });
+  await workbench.page.locator(".tab.active.dirty").waitFor();
+  await workbench.page.keyboard.press("Escape");
+  await workbench.save();
+  const [was, is] = [before, workbench.read(BALLS)].map((text) => text.split("\n"));
+  const changed = is?.map((text, index) => (text === was?.[index] ? 0 : index + 1)).filter((number) => number > 0);
+  assert.deepEqual(changed, [line]);
+  assert.match(is?.[line - 1] ?? "", /^yellow = < [\d.]+, [\d.]+, [\d.]+ >$/);
+});
+
+test("the time from a key to its diagnostic, without a preview", async () => {
+  await workbench.openScene(SCENE);
+  measured.keyToDiagnosticsClosed = await latencies(workbench, SCENE);
+});
+
+test("the preview shows the mirage, and straight light something else where it should", async () => {
+  await workbench.goTo(SCENE, "SOLID /* lower left");
+  await workbench.command("M3D: Open Preview to the Side");
+  await workbench.pictureIsDone();
+  const [sky, pillar, wall] = await workbench.colors([SKY, PILLAR, WALL]);
+  await workbench.preview.getByRole("button", { name: "Straight" }).click();
+  await workbench.preview.getByText(/^straight \d+/).waitFor();
+  await workbench.pictureIsDone();
+  await workbench.screenshot("straight");
+  const [straightSky, straightPillar, straightWall] = await workbench.colors([SKY, PILLAR, WALL]);
+  const [red = 0, green = 0, blue = 0] = pillar ?? [];
+  assert.ok(blue > 100 && red < 60 && green < 60, `the pillar is blue: ${String(pillar)}`);
+  assert.deepEqual(sky, straightSky);
+  assert.notDeepEqual(wall, straightWall, "the wall does not reach so high without a mirage");
+  assert.notDeepEqual(pillar, straightPillar);
+  await workbench.preview.getByRole("button", { name: "Mirage" }).click();
+  await workbench.preview.getByText(/^mirage \d+/).waitFor();
+  await workbench.pictureIsDone();
+  assert.deepEqual(await workbench.colors([SKY, PILLAR, WALL]), [sky, pillar, wall]);
+  await workbench.screenshot("preview");
+});
+
+test("the time from a key to its diagnostic, with the preview", async () => {
+  await workbench.page.locator(".tab", { hasText: SCENE }).first().click();
+  const open = await latencies(workbench, SCENE);
+  measured.keyToDiagnosticsOpen = open;
+  const closed = measured.keyToDiagnosticsClosed as number[];
+  measured.ratio = median(open) / median(closed);
+  console.log(
+    `from a key to its diagnostic: ${median(closed).toFixed(0)} ms without a preview, ` +
+      `${median(open).toFixed(0)} ms with it: ${(measured.ratio as number).toFixed(2)} times`,
+  );
+});
+
+test("a click on a pixel lands on what it shows", async () => {
+  await workbench.pictureIsDone();
+  for (const [place, text] of [
+    [WALL, "RECTANGLE {"],
+    [PILLAR, "SPHERE { CENTER < -1400, -6, -1 >"],
+  ] as const) {
+    await workbench.clickPicture(place);
+    const { line } = workbench.find(SCENE, text);
+    await workbench.page.locator("#status\\.editor\\.selection", { hasText: `Ln ${line},` }).waitFor();
+  }
+});
+
+test("the picture follows the text, and says when it does not", async () => {
+  const [before] = await workbench.colors([PILLAR]);
+  await workbench.goTo(SCENE, "0, 0, 0.9 >\n        ROUGH 0.2 HARD 0.2 ");
+  await workbench.page.keyboard.press("Delete");
+  await workbench.page.keyboard.type("0.9");
+  await workbench.colorBecomes(PILLAR, (now) => now !== String(before));
+  await workbench.page.keyboard.type(" , ,");
+  await workbench.preview.locator('.m3d-badge[data-kind="stale"]').waitFor();
+  await workbench.screenshot("stale");
+  for (let count = 0; count < 4; count++) {
+    await workbench.page.keyboard.press("Backspace");
+  }
+  await workbench.pictureIsDone();
+});
+
+test("both kinds of light are shown under a slider", async () => {
+  await workbench.preview.getByRole("button", { name: "Both" }).click();
+  await workbench.preview.getByText(/straight \d+/).waitFor();
+  await workbench.pictureIsDone();
+  const slider = workbench.preview.getByRole("slider");
+  const [middle] = await workbench.colors([WALL]);
+  await slider.press("Home");
+  await workbench.colorBecomes(WALL, (now) => now !== String(middle));
+  await slider.press("End");
+  await workbench.colorBecomes(WALL, (now) => now === String(middle));
+  for (let count = 0; count < 25; count++) {
+    await slider.press("ArrowLeft");
+  }
+  await workbench.screenshot("both");
+});
+
+test("the dump opens beside the scene and follows the cursor", async () => {
+  await workbench.page.locator(".tab", { hasText: SCENE }).first().click();
+  await workbench.goTo(SCENE, "RECTANGLE {");
+  await workbench.command("M3D: Open Dump to the Side");
+  const dump = workbench.editor("m3d-dump");
+  await dump.locator(".view-line", { hasText: "RECTANGLE" }).first().waitFor();
+  await dump.locator(".view-overlays .cdr").first().waitFor();
+  await workbench.screenshot("dump");
+});
+
+test("the compiled scene and the syntax tree show what the cursor is in", async () => {
+  await workbench.command("Mirage3D: Focus on Compiled Scene View");
+  const rows = workbench.page.locator(".pane-body .monaco-list-row");
+  await rows.first().waitFor();
+  await workbench.page.locator(".tab", { hasText: SCENE }).first().click();
+  await workbench.goTo(SCENE, "RECTANGLE {");
+  await workbench.page.locator(".pane-body .monaco-list-row.selected").first().waitFor();
+  await workbench.screenshot("trees");
+});
+
+test("a scene is compiled by its task", async () => {
+  await workbench.page.locator(".tab", { hasText: SCENE }).first().click();
+  await workbench.command("M3D: Compile Scene to .m3ir");
+  const target = path.join(vscode.folder, "merman.m3ir");
+  await workbench.eventually("the compiled scene is there", () => Promise.resolve(fs.existsSync(target)));
+  assert.ok(fs.statSync(target).size > 1000);
+});
+
+test("it is seen in high contrast", async () => {
+  await workbench.command("Preferences: Color Theme");
+  await workbench.answer("Dark High Contrast");
+  await workbench.preview.locator("body.vscode-high-contrast").waitFor();
+  await workbench.screenshot("high-contrast");
+});
+
+test("how long the extension takes to start", async () => {
+  await workbench.command("Developer: Show Running Extensions");
+  const row = workbench.page.locator(".runtime-extensions-editor .monaco-list-row", { hasText: "mirage3d" }).first();
+  await row.waitFor();
+  const text = await row.innerText();
+  measured.activation = /(\d+)ms/.exec(text)?.[0];
+  console.log(`the extension starts in ${String(measured.activation)}`);
+});

@@ -1,0 +1,229 @@
+/** The whole picture part in a page, with a host that a test speaks for. */
+
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+
+import type { Hit, Scene } from "../../preview/host";
+import { Preview } from "../../preview/preview";
+import { FakeHost, plain, settled } from "./fake-host";
+
+const SCENE: Scene = { id: "file:///a.m3d", name: "a.m3d", version: 1, render: true, errors: false };
+const HIT = { line: 7, position: [0, 0, 0], depth: 1, path: { length: 1, arcs: 1 } } as unknown as Hit;
+
+let host: FakeHost;
+let root: HTMLElement;
+
+/** A canvas context that draws nothing; this page's canvas has none. */
+const context = new Proxy({}, { get: () => () => undefined, set: () => true });
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("ImageData", Object);
+  vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(context as never);
+  for (const [name, size] of [
+    ["clientWidth", 200],
+    ["clientHeight", 100],
+  ] as const) {
+    vi.spyOn(HTMLElement.prototype, name, "get").mockReturnValue(size);
+  }
+  host = new FakeHost();
+  root = document.createElement("div");
+  document.body.replaceChildren(root);
+  new Preview(root, host);
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+  vi.restoreAllMocks();
+  vi.unstubAllGlobals();
+});
+
+function scene(changes: Partial<Scene> = {}): void {
+  host.events?.scene({ ...SCENE, ...changes });
+}
+
+/** Draws what has changed. */
+async function drawn(): Promise<void> {
+  await settled();
+  vi.advanceTimersByTime(50);
+  await settled();
+}
+
+async function rendered(version = 1, red = 10): Promise<void> {
+  const { length } = host.asked;
+  host.asked[length - 1]?.tile(plain(red));
+  await host.asked[length - 1]?.answer({ version });
+  await drawn();
+}
+
+function press(key: string, shiftKey = false): void {
+  root.querySelector("canvas")?.dispatchEvent(new KeyboardEvent("keydown", { key, shiftKey, cancelable: true }));
+}
+
+function text(selector: string): string {
+  return root.querySelector(selector)?.textContent ?? "";
+}
+
+function click(label: string): void {
+  root.querySelector<HTMLElement>(`button[aria-label="${label}"]`)?.click();
+}
+
+test("the first picture is a full one, as large as the pane", () => {
+  scene();
+  expect(host.asked.map(({ request }) => request)).toEqual([
+    { optics: "mirage", maxWidth: 200, maxHeight: 100, samples: 1 },
+  ]);
+});
+
+test("while one types there are small pictures, and a full one when the text has rested", async () => {
+  scene();
+  await host.asked[0]?.answer({ width: 200, height: 100 });
+  scene({ version: 2 });
+  expect(host.asked[1]?.request).toEqual({ optics: "mirage", maxWidth: 100, maxHeight: 50, samples: 1 });
+  await host.asked[1]?.answer({ version: 2 });
+  scene({ version: 3 });
+  await host.asked[2]?.answer({ version: 3 });
+  vi.advanceTimersByTime(399);
+  expect(host.asked.length).toBe(3);
+  vi.advanceTimersByTime(1);
+  expect(host.asked[3]?.request.maxWidth).toBe(200);
+});
+
+test("nothing is rendered for a text with errors, and the picture says that it is stale", async () => {
+  scene();
+  await rendered();
+  scene({ version: 2, errors: true });
+  await drawn();
+  expect(host.asked.length).toBe(1);
+  expect(text(".m3d-badge")).toBe("Stale");
+  scene({ version: 3 });
+  await drawn();
+  expect(host.asked.length).toBe(2);
+});
+
+test("a text that waits to be saved makes the picture stale", async () => {
+  scene();
+  await rendered();
+  expect(text(".m3d-badge")).toBe("");
+  scene({ version: 2, render: false });
+  await drawn();
+  expect([text(".m3d-badge"), host.asked.length]).toEqual(["Stale", 1]);
+});
+
+test("an error is said on the picture, which stays", async () => {
+  scene();
+  await rendered();
+  host.events?.again();
+  await host.asked[1]?.answer({ status: "error", message: "no memory" });
+  await drawn();
+  expect(text(".m3d-badge")).toBe("Error: last good picture: no memory");
+});
+
+test("nothing is rendered while nobody sees it", () => {
+  host.events?.visible(false);
+  scene();
+  expect(host.asked.length).toBe(0);
+  host.events?.visible(true);
+  expect(host.asked.length).toBe(1);
+  host.events?.visible(false);
+  host.events?.visible(true);
+  expect(host.asked.length).toBe(1);
+});
+
+test("while there can be no picture it says why", async () => {
+  host.events?.blocked("Nothing is rendered in Restricted Mode.");
+  scene();
+  await drawn();
+  expect(host.asked.length).toBe(0);
+  expect(text(".m3d-blocked")).toBe("Nothing is rendered in Restricted Mode.");
+  host.events?.blocked(null);
+  expect(host.asked.length).toBe(1);
+});
+
+test("both kinds of light are rendered for the slider, which arrow keys move", async () => {
+  scene();
+  await rendered();
+  click("Both");
+  await drawn();
+  expect(host.asked.slice(1).map(({ request }) => request.optics)).toEqual(["straight"]);
+  const slider = root.querySelector<HTMLElement>("[role=slider]");
+  expect([slider?.hidden, slider?.getAttribute("aria-valuenow")]).toEqual([false, "50"]);
+  slider?.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }));
+  await drawn();
+  expect(slider?.getAttribute("aria-valuenow")).toBe("52");
+});
+
+test("keys move from pixel to pixel, say what is there and lead to its text", async () => {
+  host.hit = HIT;
+  scene();
+  await rendered();
+  press("ArrowLeft");
+  await drawn();
+  expect(text(".m3d-pixel")).toBe("x 0  y 1   0.039  0.000  0.000   mirage");
+  vi.advanceTimersByTime(120);
+  await drawn();
+  expect(text(".m3d-hit")).toContain("line 7");
+  press("Enter");
+  await settled();
+  press("Enter", true);
+  await settled();
+  expect(host.calls.filter(([name]) => name === "reveal")).toEqual([
+    ["reveal", 7, false],
+    ["reveal", 7, true],
+  ]);
+});
+
+test("a click leads to the text of what is there, and nowhere where nothing is", async () => {
+  scene();
+  await rendered();
+  const canvas = root.querySelector("canvas");
+  canvas?.dispatchEvent(new PointerEvent("pointermove", { clientX: 120, clientY: 20 }));
+  press("Enter");
+  await settled();
+  expect(host.calls).toContainEqual(["pick", "mirage", 1, 0]);
+  expect(host.calls.some(([name]) => name === "reveal")).toBe(false);
+});
+
+test("what the cursor is in is asked for again with each new picture", async () => {
+  scene();
+  await rendered();
+  expect(host.calls).toEqual([["mask", "mirage"]]);
+  host.events?.cursor();
+  expect(host.calls.length).toBe(2);
+});
+
+test("everything has a name, and can be reached with the keyboard", () => {
+  const reached = [...root.querySelectorAll<HTMLElement>("button, input, canvas, [tabindex]")];
+  expect(reached.length).toBeGreaterThan(10);
+  for (const element of reached) {
+    const label = element.getAttribute("aria-label") ?? element.closest("label")?.textContent ?? "";
+    expect(label, element.outerHTML).not.toBe("");
+    expect(element.tabIndex, element.outerHTML).toBe(0);
+  }
+});
+
+test("buttons do what they say", async () => {
+  scene();
+  await rendered();
+  click("Save…");
+  click("Pin");
+  host.events?.options({ pinned: true });
+  expect(root.querySelector("button[aria-label=Pin]")?.getAttribute("aria-pressed")).toBe("true");
+  click("Pin");
+  expect(host.calls.slice(1)).toEqual([
+    ["save", "mirage"],
+    ["pin", true],
+    ["pin", false],
+  ]);
+});
+
+test("zooming is said in percent", async () => {
+  scene();
+  await rendered();
+  expect(text(".m3d-zoom")).toBe("5000 %");
+  press("1");
+  await drawn();
+  expect(text(".m3d-zoom")).toBe("100 %");
+  press("0");
+  await drawn();
+  expect(text(".m3d-zoom")).toBe("5000 %");
+});

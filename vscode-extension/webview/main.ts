@@ -1,0 +1,106 @@
+/** The page of a preview in VS Code: the picture part, with the extension as its host. */
+
+import type { Events, Hit, Host, Mask, Optics, Rendered, RenderRequest, Tile } from "../preview/host";
+import { Preview } from "../preview/preview";
+import type { Answer, FromPage, ToPage, WireTile } from "./messages";
+
+import "../preview/style.css";
+import "./theme.css";
+
+declare function acquireVsCodeApi(): { postMessage(message: FromPage): void; setState(state: unknown): void };
+
+interface Question {
+  resolve(answer: Answer): void;
+  reject(fault: Error): void;
+  tile?: (tile: Tile) => void;
+}
+
+class Extension implements Host {
+  private readonly api = acquireVsCodeApi();
+  private readonly questions = new Map<number, Question>();
+  private last = 0;
+
+  listen(events: Events): void {
+    window.addEventListener("message", ({ data }: MessageEvent<ToPage>) => this.take(data, events));
+    this.api.postMessage({ type: "ready" });
+  }
+
+  render(request: RenderRequest, tile: (tile: Tile) => void): Promise<Rendered> {
+    return this.ask((id) => ({ type: "render", id, request }), tile) as Promise<Rendered>;
+  }
+
+  pick(optics: Optics, x: number, y: number): Promise<Hit | null> {
+    return this.ask((id) => ({ type: "pick", id, optics, x, y })) as Promise<Hit | null>;
+  }
+
+  mask(optics: Optics): Promise<Mask | null> {
+    return this.ask((id) => ({ type: "mask", id, optics })) as Promise<Mask | null>;
+  }
+
+  reveal(hit: Hit, whole: boolean): void {
+    this.api.postMessage({ type: "reveal", hit, whole });
+  }
+
+  save(optics: Optics): void {
+    this.api.postMessage({ type: "save", optics });
+  }
+
+  pin(pinned: boolean): void {
+    this.api.postMessage({ type: "pin", pinned });
+  }
+
+  private ask(message: (id: number) => FromPage, tile?: (tile: Tile) => void): Promise<Answer> {
+    const id = ++this.last;
+    return new Promise((resolve, reject) => {
+      this.questions.set(id, { resolve, reject, ...(tile && { tile }) });
+      this.api.postMessage(message(id));
+    });
+  }
+
+  private take(message: ToPage, events: Events): void {
+    switch (message.type) {
+      case "answer":
+        this.close(message.id)?.resolve(message.answer);
+        break;
+      case "failed":
+        this.close(message.id)?.reject(new Error(message.message));
+        break;
+      case "tile":
+        this.questions.get(message.id)?.tile?.(decoded(message.tile));
+        break;
+      case "scene":
+        // What VS Code hands back when it opens the preview again after a restart.
+        this.api.setState({ uri: message.scene.id });
+        events.scene(message.scene);
+        break;
+      case "options":
+        events.options(message.options);
+        break;
+      case "visible":
+        events.visible(message.visible);
+        break;
+      case "blocked":
+        events.blocked(message.reason);
+        break;
+      default:
+        events[message.type]();
+    }
+  }
+
+  private close(id: number): Question | undefined {
+    const question = this.questions.get(id);
+    this.questions.delete(id);
+    return question;
+  }
+}
+
+function decoded(tile: WireTile): Tile {
+  const text = atob(tile.pixels);
+  const pixels = new Uint8Array(text.length);
+  for (let index = 0; index < text.length; index++) {
+    pixels[index] = text.charCodeAt(index);
+  }
+  return { ...tile, pixels };
+}
+
+new Preview(document.body, new Extension());

@@ -1,0 +1,31 @@
+/** What the page of a preview and the extension say to each other. */
+
+import type { Hit, Mask, Optics, Options, Rendered, RenderRequest, Scene, Tile } from "../preview/host";
+
+/** A tile with its pixels as base64: they come so from the language server, and are only handed on. */
+export type WireTile = Omit<Tile, "pixels"> & { pixels: string };
+
+/** From the page: questions, which have an id and are answered, and wishes. */
+export type FromPage =
+  | { type: "render"; id: number; request: RenderRequest }
+  | { type: "pick"; id: number; optics: Optics; x: number; y: number }
+  | { type: "mask"; id: number; optics: Optics }
+  | { type: "ready" }
+  | { type: "reveal"; hit: Hit; whole: boolean }
+  | { type: "save"; optics: Optics }
+  | { type: "pin"; pinned: boolean };
+
+export type Answer = Rendered | Hit | Mask | null;
+
+/** To the page: answers, tiles of a rendering that is under way, and events. */
+export type ToPage =
+  | { type: "answer"; id: number; answer: Answer }
+  | { type: "failed"; id: number; message: string }
+  | { type: "tile"; id: number; tile: WireTile }
+  | { type: "scene"; scene: Scene }
+  | { type: "options"; options: Partial<Options> }
+  | { type: "visible"; visible: boolean }
+  | { type: "blocked"; reason: string | null }
+  | { type: "again" }
+  | { type: "cursor" }
+  | { type: "save" };

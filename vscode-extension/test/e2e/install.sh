@@ -22,7 +22,7 @@ server="$folder/node_modules/code-server"
 gyp="$(npm root -g)/npm/node_modules/node-gyp/bin/node-gyp.js"
 # Node's headers come with it; they are not to be fetched.
 node="$(dirname "$(dirname "$(readlink -f "$(command -v node)")")")"
-for module in @vscode/spdlog native-watchdog; do
+for module in @vscode/spdlog native-watchdog node-pty; do
     (cd "$server/lib/vscode/node_modules/$module" && node "$gyp" rebuild --nodedir="$node" --silent)
 done
 npm_config_build_from_source=true npm_config_nodedir="$node" npm rebuild --loglevel=error argon2

@@ -4,6 +4,12 @@ import type { Workbench } from "./workbench";
 
 const ROUNDS = 15;
 
+declare global {
+  interface Window {
+    watched: Promise<number>;
+  }
+}
+
 /** Makes an error and mends it, again and again: the times in ms from the key until the squiggle is there. */
 export async function latencies(workbench: Workbench, name: string): Promise<number[]> {
   const { page } = workbench;
@@ -12,12 +18,12 @@ export async function latencies(workbench: Workbench, name: string): Promise<num
   await editor.locator(".squiggly-error").first().waitFor({ state: "detached" });
   const times: number[] = [];
   for (let round = 0; round < ROUNDS; round++) {
-    const there = page.evaluate(watch, true);
+    await page.evaluate(watch, true);
     await page.keyboard.type("x");
-    times.push(await there);
-    const gone = page.evaluate(watch, false);
+    times.push(await page.evaluate(() => window.watched));
+    await page.evaluate(watch, false);
     await page.keyboard.press("Backspace");
-    await gone;
+    await page.evaluate(() => window.watched);
   }
   return times;
 }
@@ -27,9 +33,9 @@ export function median(values: number[]): number {
   return sorted[Math.floor(sorted.length / 2)] ?? NaN;
 }
 
-/** Runs in the page: the time from the next key until there is, or is no longer, a squiggle. */
-function watch(appears: boolean): Promise<number> {
-  return new Promise((resolve) => {
+/** Runs in the page; then `watched` is the time from the next key until there is, or is no longer, a squiggle. */
+function watch(appears: boolean): void {
+  window.watched = new Promise((resolve) => {
     let pressed = NaN;
     window.addEventListener("keydown", () => (pressed = performance.now()), { capture: true, once: true });
     const look = (): void => {

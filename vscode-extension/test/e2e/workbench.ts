@@ -85,12 +85,19 @@ export class Workbench {
     return this.page.locator(`.editor-instance .monaco-editor[data-uri*="${ending}"]`);
   }
 
+  /** Puts the keyboard into the editor of an open file, in the first group. */
+  async focus(name: string): Promise<void> {
+    await this.page.locator(`.tab[data-resource-name="${name}"]`).first().click();
+    await this.page.keyboard.press("Control+1");
+    await this.editor(name).locator(".native-edit-context:focus, textarea:focus").first().waitFor({ state: "attached" });
+  }
+
   /** Puts the cursor before the first such text in the scene as it is on disk. */
   async goTo(name: string, text: string): Promise<void> {
     const { line, column } = this.find(name, text);
-    await this.editor(name).locator(".view-lines").click({ position: { x: 5, y: 5 } });
+    await this.focus(name);
     await this.page.keyboard.press("Control+g");
-    await this.answer(`${line}:${column}`);
+    await this.answer(`:${line}:${column}`);
   }
 
   find(name: string, text: string): { line: number; column: number } {

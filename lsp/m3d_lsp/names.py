@@ -23,12 +23,14 @@ class Role(Enum):
 
 
 class Occurrence(NamedTuple):
-    """A name in the text. `type` is what it is declared as, where the occurrence is a declaration."""
+    """A name in the text. Where it is a declaration, `type` is what it is declared as, and `type_span` where that
+    stands."""
 
     name: str
     span: Span
     role: Role
     type: str = ""
+    type_span: Span | None = None
 
 
 class Names:
@@ -40,8 +42,9 @@ class Names:
         self._by_name: dict[str, list[Occurrence]] = {}
         for top in analysis.items:
             for occurrence in _names_of(top.item):
-                start, end = occurrence.span
-                placed = occurrence._replace(span=(start + top.start, end + top.start))
+                placed = occurrence._replace(span=_moved(occurrence.span, top.start))
+                if occurrence.type_span is not None:
+                    placed = placed._replace(type_span=_moved(occurrence.type_span, top.start))
                 self.occurrences.append(placed)
                 self._by_name.setdefault(occurrence.name, []).append(placed)
 
@@ -90,6 +93,10 @@ class Names:
         return value
 
 
+def _moved(span: Span, start: int) -> Span:
+    return span[0] + start, span[1] + start
+
+
 @lru_cache(maxsize=8)
 def names(analysis: Analysis) -> Names:
     """The names of an analysed document."""
@@ -102,7 +109,9 @@ def _names_of(item: ast.Item) -> Iterator[Occurrence]:
         case ast.Variables():
             for declaration in item.declarations:
                 for name in declaration.names:
-                    yield Occurrence(name.text, name.span, Role.DECLARATION, declaration.type.text)
+                    yield Occurrence(
+                        name.text, name.span, Role.DECLARATION, declaration.type.text, declaration.type.span
+                    )
         case ast.Assignment():
             yield Occurrence(item.target.text, item.target.span, Role.ASSIGNMENT)
             if item.value is not None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, cast
 
 from lsprotocol import types
 from pygls.protocol import LanguageServerProtocol, lsp_method
+
+from .registry import RefusalError
 
 if TYPE_CHECKING:
     from .server import Server
@@ -32,3 +35,13 @@ class Protocol(LanguageServerProtocol):
     def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> Any:
         self._own.documents.close(params.text_document.uri)
         self._own.forget(params.text_document.uri)
+
+    def _send_handler_result(self, future: Future[Any], *, msg_id: str | int) -> None:
+        """What is refused is answered with the reason, and is no fault of the server."""
+        refusal = None if future.cancelled() else future.exception()
+        if isinstance(refusal, RefusalError):
+            self._request_futures.pop(msg_id, None)
+            error = types.ResponseError(types.LSPErrorCodes.RequestFailed, str(refusal))
+            self._send_response(msg_id, error=error)
+        else:
+            super()._send_handler_result(future, msg_id=msg_id)

@@ -5,7 +5,8 @@
 
 A handler is a plain function of a snapshot and the request's parameters: it knows nothing of the server, sends nothing,
 and is not called again for what it says. The server waits for the snapshot of the document as it was when the request
-came, or a later one, and sends the answer; a handler that fails is logged, and its answer is `nothing`.
+came, or a later one, and sends the answer; a handler that fails is logged, and its answer is `nothing`. What can not be
+done it refuses by raising RefusalError.
 """
 
 from __future__ import annotations
@@ -14,6 +15,10 @@ from collections.abc import Awaitable, Callable
 from typing import Any, NamedTuple, TypeAlias
 
 Handler: TypeAlias = Callable[..., Any]
+
+
+class RefusalError(Exception):
+    """Why something can not be done, in words for the person who asked for it."""
 
 
 class Request(NamedTuple):
@@ -41,7 +46,7 @@ SERVER_REQUESTS: list[ServerRequest] = []
 def request(
     method: str, options: Any = None, *, nothing: Any = None, slow: bool = False
 ) -> Callable[[Handler], Handler]:
-    """Declares the handler of a request whose parameters name a text document."""
+    """Declares the handler of a request whose parameters name a text document, or an item of one."""
 
     def declare(handler: Handler) -> Handler:
         REQUESTS.append(Request(method, handler, options, nothing, slow))

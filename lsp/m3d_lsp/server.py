@@ -19,7 +19,7 @@ from .feature import diagnostics
 from .preview import requests as preview
 from .preview.previews import Previews
 from .protocol import Protocol
-from .registry import REQUESTS, SERVER_REQUESTS, Request, ServerRequest
+from .registry import REQUESTS, SERVER_REQUESTS, RefusalError, Request, ServerRequest
 from .settings import read_settings
 from .snapshot import Snapshot
 
@@ -121,7 +121,7 @@ def _answer(server: Server, entry: Request) -> Callable[[Any], Awaitable[Any]]:
     """What answers a request about one document. A fault in a feature is logged, and the rest goes on."""
 
     async def answer(params: Any) -> Any:
-        document = server.documents.get(params.text_document.uri)
+        document = server.documents.get(_uri(params))
         if document is None:
             return entry.nothing
         snapshot = await document.snapshot()
@@ -129,12 +129,22 @@ def _answer(server: Server, entry: Request) -> Callable[[Any], Awaitable[Any]]:
             if entry.slow:
                 return await asyncio.to_thread(entry.handler, snapshot, params)
             return entry.handler(snapshot, params)
+        except RefusalError:
+            raise
         except Exception:
             log.exception("%s failed in version %s of %s", entry.method, snapshot.version, snapshot.uri)
             server.tell(f"{entry.method} failed; the log file of the server says how")
             return entry.nothing
 
     return answer
+
+
+def _uri(params: Any) -> str:
+    """The document that a request is about; one about an item that the server gave names the item's, and one about an
+    action has it in its data."""
+    if isinstance(params, types.CodeAction):
+        return params.data["uri"]
+    return (params.text_document if hasattr(params, "text_document") else params.item).uri
 
 
 def _pass_on(server: Server, entry: ServerRequest) -> Callable[[Any], Any]:

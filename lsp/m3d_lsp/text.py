@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -91,6 +92,35 @@ class Text:
     def range(self, span: Span) -> types.Range:
         """A range of bytes as LSP's."""
         return types.Range(self.position(span[0]), self.position(span[1]))
+
+    def positions(self, offsets: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The lines and characters of many bytes at once."""
+        lines = np.searchsorted(self._starts, offsets, side="right") - 1
+        starts = self._starts[lines]
+        return lines, offsets - starts + self._surplus(offsets) - self._surplus(starts)
+
+    def ranges(self, spans: Sequence[Span]) -> list[types.Range]:
+        """Many ranges of bytes as LSP's."""
+        lines, characters = self.positions(np.array(spans, np.int64).reshape(-1))
+        places = list(map(types.Position, lines.tolist(), characters.tolist()))
+        return list(map(types.Range, places[::2], places[1::2]))
+
+    def _surplus(self, offsets: NDArray[np.int64]) -> NDArray[np.int64]:
+        """How many units more than bytes there are before each byte of the text."""
+        wide, surplus = self._wide
+        return surplus[np.searchsorted(wide, offsets)]
+
+    @cached_property
+    def _wide(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Where the bytes are that are no unit of their own, and how many units more than bytes there are before each
+        of them, and after the last."""
+        if self.encoding == "utf-8" or self.data.isascii():
+            return np.zeros(0, np.int64), np.zeros(1, np.int64)
+        data = np.frombuffer(self.data, np.uint8)
+        within = (data & 0xC0) == 0x80
+        pairs = data >= 0xF0 if self.encoding == "utf-16" else np.zeros(len(data), np.bool_)
+        wide = np.flatnonzero(within | pairs)
+        return wide, np.concatenate([np.zeros(1, np.int64), np.cumsum(pairs[wide].astype(np.int64) - within[wide])])
 
     def span(self, range_: types.Range) -> Span:
         """LSP's range as one of bytes."""

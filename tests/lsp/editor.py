@@ -10,7 +10,7 @@ import asyncio
 import functools
 import itertools
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 from lsprotocol import types
@@ -48,6 +48,19 @@ def position(text: str, index: int) -> types.Position:
     """Where a character of a text stands, as UTF-32 counts."""
     line = text.count("\n", 0, index)
     return types.Position(line, index - (text.rfind("\n", 0, index) + 1))
+
+
+def apply(text: str, edits: Sequence[types.TextEdit]) -> str:
+    """A text with edits made, which may not overlap; those that begin at one place come in their order."""
+    starts = list(itertools.accumulate((len(line) + 1 for line in text.split("\n")), initial=0))
+    parts: list[str] = []
+    done = 0
+    for edit in sorted(edits, key=lambda edit: (edit.range.start.line, edit.range.start.character)):
+        start, end = (starts[place.line] + place.character for place in (edit.range.start, edit.range.end))
+        assert done <= start <= end <= len(text)
+        parts += [text[done:start], edit.new_text]
+        done = end
+    return "".join([*parts, text[done:]])
 
 
 class Scene(NamedTuple):

@@ -1,5 +1,19 @@
 """What the server answers, a module a feature. Adding one is a module, and its name below."""
 
-from . import configuration, diagnostics
+from . import (
+    configuration,
+    definition,
+    diagnostics,
+    references,
+    rename,
+    symbols,
+)
 
-MODULES = (configuration, diagnostics)
+MODULES = (
+    configuration,
+    definition,
+    diagnostics,
+    references,
+    rename,
+    symbols,
+)

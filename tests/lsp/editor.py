@@ -133,10 +133,10 @@ class Editor:
         self.client = client
         self._open: dict[str, int] = {}
 
-    def open(self, marked: str, name: str = "scene") -> Scene:
-        """Open a scene under a name that no other has."""
+    def open(self, marked: str, name: str = "scene", uri: str = "") -> Scene:
+        """Open a scene, without a URI under a name that no other has."""
         text, places = read_marks(marked)
-        uri = f"file:///scenes/{name}-{next(_NUMBERS)}.m3d"
+        uri = uri or f"file:///scenes/{name}-{next(_NUMBERS)}.m3d"
         item = types.TextDocumentItem(uri, "m3d", 1, text)
         self.client.text_document_did_open(types.DidOpenTextDocumentParams(item))
         self._open[uri] = 1

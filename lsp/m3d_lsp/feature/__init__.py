@@ -4,8 +4,11 @@ from . import (
     configuration,
     definition,
     diagnostics,
+    folding,
+    links,
     references,
     rename,
+    selection,
     symbols,
 )
 
@@ -13,7 +16,10 @@ MODULES = (
     configuration,
     definition,
     diagnostics,
+    folding,
+    links,
     references,
     rename,
+    selection,
     symbols,
 )

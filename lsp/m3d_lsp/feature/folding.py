@@ -1,0 +1,79 @@
+"""Folding: blocks, tables, comments, and comments that follow one another on lines of their own.
+
+A block folds onto the line that it begins on, its closing brace too if nothing follows that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lsprotocol import types
+
+from m3dc import ast
+
+from ..comments import comments
+from ..registry import request
+from ..snapshot import Snapshot
+from ..text import Span
+
+
+@request(types.TEXT_DOCUMENT_FOLDING_RANGE)
+def folding(snapshot: Snapshot, params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+    """What can be folded, of whole lines; at most one begins on a line."""
+    del params
+    text = snapshot.text
+    found: dict[int, types.FoldingRange] = {}
+    for start, end in _blocks(snapshot):
+        first, last = text.line_of(start), text.line_of(end - 1)
+        if text.data[end : text.line_end(last)].strip():
+            last -= 1
+        if last > first:
+            found.setdefault(first, types.FoldingRange(first, last))
+    for start, end in _comments(snapshot):
+        first, last = text.line_of(start), text.line_of(end - 1)
+        if last > first:
+            found.setdefault(first, types.FoldingRange(first, last, kind=types.FoldingRangeKind.Comment))
+    return [found[line] for line in sorted(found)]
+
+
+def _blocks(snapshot: Snapshot) -> Iterator[Span]:
+    """All items with braces, outer ones first."""
+    for top in snapshot.analysis.items:
+        for start, end in _braced(top.item):
+            yield start + top.start, end + top.start
+
+
+def _braced(item: ast.Item) -> Iterator[Span]:
+    match item:
+        case ast.Variables() | ast.Table():
+            yield item.span
+        case ast.Block() | ast.Assignment() if item.body is not None:
+            yield item.span
+            for member in item.body.items:
+                yield from _braced(member)
+        case _:
+            pass
+
+
+def _comments(snapshot: Snapshot) -> Iterator[Span]:
+    """Each comment, or several that stand on lines of their own, one below the other."""
+    data = snapshot.text.data
+    run: Span | None = None
+    for start, end in comments(snapshot.analysis).spans:
+        line_end = data.find(b"\n", end)
+        own_line = not (
+            data[data.rfind(b"\n", 0, start) + 1 : start].strip()
+            or data[end : line_end if line_end >= 0 else len(data)].strip()
+        )
+        if run is not None and own_line:
+            between = data[run[1] : start]
+            if not between.strip() and between.count(b"\n") == 1:
+                run = run[0], end
+                continue
+        if run is not None:
+            yield run
+        run = (start, end) if own_line else None
+        if run is None:
+            yield start, end
+    if run is not None:
+        yield run

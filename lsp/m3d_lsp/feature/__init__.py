@@ -5,11 +5,13 @@ from . import (
     definition,
     diagnostics,
     folding,
+    hierarchy,
     links,
     references,
     rename,
     selection,
     symbols,
+    workspace_symbols,
 )
 
 MODULES = (
@@ -17,9 +19,11 @@ MODULES = (
     definition,
     diagnostics,
     folding,
+    hierarchy,
     links,
     references,
     rename,
     selection,
     symbols,
+    workspace_symbols,
 )

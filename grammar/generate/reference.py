@@ -2,31 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from string import Template
-from typing import NamedTuple
 
-from tree_sitter_m3d.table import Argument, Block, Bounds, Default, Language, Statement, Table
+from tree_sitter_m3d.table import Argument, Block, Bounds, Default, Language, Page, Statement, Table
 
 HEADER = "<!-- Generated from grammar/language.toml by `make generate`. -->\n"
 
-
-class Page(NamedTuple):
-    """A page: the file, the title, the section of the thesis whose blocks it describes, and its first sentence."""
-
-    name: str
-    title: str
-    section: str
-    says: str
-
-
-PAGES = (
-    Page("scene", "The scene", "7.5.5.1", "What is neither a light nor a solid: camera, ambient light, air and sky."),
-    Page("transformations", "Transformations", "7.5.5.2", "How objects, primitives and textures are placed."),
-    Page("primitives", "Primitives", "7.5.5.3", "The shapes that solids and visible lights are built of."),
-    Page("attributes", "Attributes", "7.5.5.4", "How solids look, and how lights shine."),
-    Page("objects", "Objects", "7.5.5.5", "The things in a scene: solids and lights."),
-)
 
 ASSIGNMENTS = """\
 A variable gets its value outside the blocks of the file, in one of these forms:
@@ -49,16 +31,16 @@ $identifier characters and is not a keyword.
 
 def pages(language: Language) -> dict[str, str]:
     """The text of every page by the name of its file."""
-    texts = {f"{page.name}.md": _page(language, page) for page in PAGES}
-    return {"README.md": _index(language), "variables.md": _variables(language), **texts}
+    texts = {f"{page.name}.md": _page(language, page) for page in language.pages if page.name != "variables"}
+    return {"README.md": _index(language), **texts, "variables.md": _variables(language)}
 
 
 # --- pages ------------------------------------------------------------------------------------------------------
 
 
 def _page(language: Language, page: Page) -> str:
-    blocks = [block for block in language.blocks.values() if block.thesis == page.section]
-    parts = [f"{HEADER}\n# {page.title}\n\n{page.says} Thesis: {page.section}.\n"]
+    blocks = [block for block in language.blocks.values() if block.thesis == page.thesis]
+    parts = [f"{HEADER}\n# {page.title}\n\n{page.says} Thesis: {page.thesis}.\n"]
     shared: list[Block] = []
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         parts.append(_block(language, block))
@@ -111,6 +93,8 @@ def _statement(statement: Statement) -> str:
         facts.append(default)
     bounds = [statement.bounds] if statement.bounds else [argument.bounds for argument in statement.arguments]
     facts += dict.fromkeys(_bounds(bound) for bound in bounds if bound)
+    if statement.often != _of_kind(statement):
+        facts.append("Often: " + ", ".join(f"{_value(value)} {label}" for label, value in statement.often.items()))
     head = f"### `{statement.keyword}` {arguments}".rstrip()
     lines = "".join(f"- {fact}\n" for fact in [*facts, f"Thesis: {statement.thesis}"])
     return f"{head}\n\n{statement.says}\n\n{lines}"
@@ -168,8 +152,7 @@ def _index(language: Language) -> str:
     return "\n".join(
         [
             f"{HEADER}\n# Language reference\n\n{language.file_says} Thesis: 7.5.3.\n",
-            *(f"- [{page.title}]({page.name}.md): {page.says}" for page in PAGES),
-            "- [Variables](variables.md): names for numbers, vectors and whole blocks.",
+            *(f"- [{page.title}]({page.name}.md): {page.says}" for page in language.pages),
             "\nComments stand between `/*` and `*/`, and nest. Keywords are in capitals.\n",
             "## Arguments\n\n| kind | shape | unit | meaning |\n|---|---|---|---|",
             *arguments,
@@ -191,7 +174,7 @@ def _listed(words: Iterable[str]) -> str:
 
 def _link(language: Language, keyword: str) -> str:
     section = language.blocks[keyword].thesis
-    page = next(page.name for page in PAGES if page.section == section)
+    page = next(page.name for page in language.pages if page.thesis == section)
     return f"[`{keyword}`]({page}.md#{keyword.lower()})"
 
 
@@ -213,6 +196,12 @@ def _value(value: Default) -> str:
         numbers = ", ".join(f"{number:g}" for number in value)
         return f"`< {numbers} >`" if len(value) == 3 else f"`{numbers}`"
     return f"`{value:g}`"
+
+
+def _of_kind(statement: Statement) -> Mapping[str, Default]:
+    """The values often wanted that are those of the argument's kind."""
+    known = statement.arguments[0].often if len(statement.arguments) == 1 else {}
+    return {label: value for label, value in known.items() if label in statement.often}
 
 
 def _default(value: Default) -> str:

@@ -71,7 +71,10 @@ class Bounds(NamedTuple):
 
 
 class Argument(NamedTuple):
-    """One argument: its kind (point, angle, color, ...), what a person would call it, and the shape and unit."""
+    """One argument: its kind (point, angle, color, ...), what a person would call it, and the shape and unit.
+
+    `components` are what the numbers of a vector are called; `often` are values by what they mean.
+    """
 
     kind: str
     name: str
@@ -79,15 +82,18 @@ class Argument(NamedTuple):
     unit: str
     says: str
     bounds: Bounds | None
+    components: tuple[str, ...]
+    often: Mapping[str, Default]
 
 
 class Statement(NamedTuple):
-    """A statement of a block. Without arguments it is a flag."""
+    """A statement of a block. Without arguments it is a flag. `often` are values of its argument by what they mean."""
 
     keyword: str
     arguments: tuple[Argument, ...]
     default: Default
     bounds: Bounds | None
+    often: Mapping[str, Default]
     says: str
     thesis: str
 
@@ -136,6 +142,15 @@ class Basic(NamedTuple):
     thesis: str
 
 
+class Page(NamedTuple):
+    """A page of the language reference, for the blocks of a section of the thesis."""
+
+    name: str
+    title: str
+    thesis: str
+    says: str
+
+
 class Language:
     """The whole table. All mappings keep the order of language.toml."""
 
@@ -153,6 +168,9 @@ class Language:
         self.top: tuple[str, ...] = tuple(table["file"]["holds"])
         self.file_says: str = table["file"]["says"]
         self.variables: Mapping[str, str] = table["variables"]
+        self.pages: tuple[Page, ...] = tuple(
+            Page(name, entry["title"], entry["thesis"], entry["says"]) for name, entry in table["page"].items()
+        )
 
     @cached_property
     def types(self) -> tuple[str, ...]:
@@ -185,11 +203,17 @@ class Language:
         return tuple(arguments)
 
     def _statement(self, keyword: str, entry: Mapping[str, Any]) -> Statement:
+        arguments, bounds = self._arguments(entry.get("takes", [])), _bounds(entry)
+        often = _often(entry)
+        if not often and len(arguments) == 1:
+            known = arguments[0].often
+            often = {label: value for label, value in known.items() if _within(value, bounds)}
         return Statement(
             keyword,
-            self._arguments(entry.get("takes", [])),
+            arguments,
             _default(entry.get("default")),
-            _bounds(entry),
+            bounds,
+            often,
             entry["says"],
             entry["thesis"],
         )
@@ -234,8 +258,19 @@ def _bounds(entry: Mapping[str, Any]) -> Bounds | None:
     return Bounds(Interval.parse(entry["range"]), policy, message)
 
 
+def _often(entry: Mapping[str, Any]) -> dict[str, Default]:
+    return {label: _default(value) for label, value in entry.get("often", {}).items()}
+
+
+def _within(value: Default, bounds: Bounds | None) -> bool:
+    return bounds is None or all(part in bounds.interval for part in (value if isinstance(value, tuple) else (value,)))
+
+
 def _kind(kind: str, entry: Mapping[str, Any]) -> Argument:
-    return Argument(kind, kind, entry["shape"], entry.get("unit", ""), entry["says"], _bounds(entry))
+    shape: Shape = entry["shape"]
+    components = tuple(entry.get("components", ("x", "y", "z") if shape == "vector" else ()))
+    unit = entry.get("unit", "")
+    return Argument(kind, kind, shape, unit, entry["says"], _bounds(entry), components, _often(entry))
 
 
 LANGUAGE = Language(json.loads(TABLE_FILE.read_text(encoding="utf-8")))

@@ -59,14 +59,14 @@ class SyntaxFault(NamedTuple):
 
 def first_error(text: str) -> SyntaxFault | None:
     """Where the text stops being a sentence, or None when it is one. An unclosed comment is an error at its start."""
-    automaton = _automaton()
+    machine = automaton()
     stack = [0]
     blocks: list[str | None] = []
     keyword: str | None = None
-    for offset, length, terminal in _tokens(blank_comments(text)):
-        after = automaton.feed(stack, terminal)
+    for offset, length, terminal in tokens(blank_comments(text)):
+        after = machine.feed(stack, terminal)
         if after is None:
-            return SyntaxFault(offset, length, automaton.accepts(stack), blocks[-1] if blocks else None)
+            return SyntaxFault(offset, length, machine.accepts(stack), blocks[-1] if blocks else None)
         stack = after
         if terminal == "LBRACE":
             blocks.append(keyword)
@@ -87,7 +87,7 @@ def parser() -> Lark:
     return Lark(data_file("m3d.lark").read_text(encoding="utf-8"), parser="lalr", lexer="contextual")
 
 
-def _tokens(text: str) -> Iterator[tuple[int, int, str]]:
+def tokens(text: str) -> Iterator[tuple[int, int, str]]:
     """The offset, the length and the terminal of every token, and `$END`. What is no token has the terminal ''."""
     at = 0
     while match := _TOKEN.match(text, at):
@@ -110,7 +110,7 @@ def _tokens(text: str) -> Iterator[tuple[int, int, str]]:
 _State = int | Sequence[Mapping[str, int]]
 
 
-class _Automaton(NamedTuple):
+class Automaton(NamedTuple):
     """An LALR(1) automaton; its stack is the list of states."""
 
     states: Sequence[_State]
@@ -144,6 +144,7 @@ class _Automaton(NamedTuple):
 
 
 @cache
-def _automaton() -> _Automaton:
-    automaton = json.loads(AUTOMATON_FILE.read_text(encoding="utf-8"))
-    return _Automaton(automaton["states"], automaton["rules"], automaton["end"])
+def automaton() -> Automaton:
+    """The automaton of m3d.lark."""
+    table = json.loads(AUTOMATON_FILE.read_text(encoding="utf-8"))
+    return Automaton(table["states"], table["rules"], table["end"])

@@ -1,0 +1,151 @@
+"""The beginning of a text, up to a cursor: what is open there, what was begun, and what could stand next.
+
+What a person is typing is rarely a sentence. Where a token does not fit, the member that it interrupts is given up, or
+else the token is passed over, so that a mistake further up does not hide what may stand at the cursor.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .comments import blank_comments
+from .formal import END, automaton, tokens
+from .table import LANGUAGE
+
+
+class Token(NamedTuple):
+    """A token, the name of its terminal in m3d.lark, and its offset in characters."""
+
+    text: str
+    terminal: str
+    offset: int
+
+
+class Opened(NamedTuple):
+    """An open brace: what its block, table or assignment begins with. For a brace that fits nowhere `start` is None."""
+
+    start: Token | None
+
+    @property
+    def keyword(self) -> str | None:
+        """The keyword of the block or table; None for the body of an assignment."""
+        is_keyword = self.start is not None and self.start.terminal != "IDENTIFIER"
+        return self.start.text if self.start is not None and is_keyword else None
+
+    @property
+    def target(self) -> str | None:
+        """The variable that the body is assigned to."""
+        is_target = self.start is not None and self.start.terminal == "IDENTIFIER"
+        return self.start.text if self.start is not None and is_target else None
+
+
+class Prefix(NamedTuple):
+    """What is known at the end of the beginning of a text.
+
+    `expected` are the terminals that could stand next, as in a SyntaxFault; none where what is open is no block of
+    the language, or in a comment. `opened` are the open braces from the outermost inwards. `member` are the tokens of
+    what was begun and may go on: a statement with its arguments so far, a declaration, an assignment, or, in a table,
+    all that it holds.
+    """
+
+    expected: frozenset[str]
+    opened: tuple[Opened, ...]
+    member: tuple[Token, ...]
+
+
+NOTHING = Prefix(frozenset(), (), ())
+
+
+def read_prefix(text: str) -> Prefix:
+    """Read a text up to its end, where the cursor is."""
+    blanked = blank_comments(text)
+    reader = _Reader()
+    for offset, length, terminal in tokens(blanked):
+        if terminal == END:
+            break
+        token = Token(blanked[offset : offset + length], terminal, offset)
+        if token.text == "/*":
+            return NOTHING
+        reader.take(token)
+    return reader.prefix()
+
+
+class _Reader:
+    def __init__(self) -> None:
+        self._machine = automaton()
+        self._restart()
+
+    def _restart(self) -> None:
+        self._stack = [0]
+        self._before = [0]  # the stack when the member was begun
+        self._opened: list[Opened] = []
+        self._member: list[Token] = []
+
+    def prefix(self) -> Prefix:
+        known = not (self._opened and self._opened[-1].start is None)
+        expected = self._machine.accepts(self._stack) if known else frozenset[str]()
+        return Prefix(expected, tuple(self._opened), tuple(self._member))
+
+    def take(self, token: Token) -> None:
+        """Go on by one token, whether it fits or not."""
+        if self._opened and self._opened[-1].start is None and not self._starts_anew(token):
+            self._in_the_unknown(token)
+            return
+        stack = self._stack
+        after = self._machine.feed(stack, token.terminal)
+        if after is None:
+            stack = self._before
+            after = self._machine.feed(stack, token.terminal)
+            if after is not None:
+                self._member = []
+        if after is None and self._starts_anew(token):
+            self._restart()
+            stack = self._stack
+            after = self._machine.feed(stack, token.terminal)
+        if after is None:
+            if token.terminal == "LBRACE":
+                self._opened.append(Opened(None))
+            return
+        self._go_on(token, stack, after)
+
+    def _go_on(self, token: Token, stack: list[int], after: list[int]) -> None:
+        match token.terminal:
+            case "LBRACE":
+                self._opened.append(Opened(self._member[0] if self._member else None))
+                self._member = []
+                self._before = after
+            case "RBRACE":
+                self._opened.pop()
+                self._member = []
+                self._before = after
+            case "SEMICOLON":
+                self._member = []
+                self._before = after
+            case _:
+                if self._begins(token):
+                    self._before = stack
+                    self._member = []
+                self._member.append(token)
+        self._stack = after
+
+    def _begins(self, token: Token) -> bool:
+        """Whether a token that fits is the first of a member."""
+        if token.terminal in LANGUAGE.keywords:
+            return True
+        if token.terminal != "IDENTIFIER" or self._opened:
+            return False
+        # At top level a name is the target of an assignment, unless it follows `=` or the keyword of a block.
+        last = self._member[-1].terminal if self._member else ""
+        return last != "EQUAL" and last not in LANGUAGE.keywords
+
+    def _starts_anew(self, token: Token) -> bool:
+        """Whether a token is what stands at the top level alone, so that what is open must have been left open."""
+        declares = any(opened.keyword == "VARIABLES" for opened in self._opened)
+        return token.terminal in LANGUAGE.top and not (declares and token.terminal in LANGUAGE.types)
+
+    def _in_the_unknown(self, token: Token) -> None:
+        """In a brace that fits nowhere only braces count."""
+        if token.terminal == "LBRACE":
+            self._opened.append(Opened(None))
+        elif token.terminal == "RBRACE":
+            self._opened.pop()

@@ -11,6 +11,7 @@ from lsprotocol import types
 
 from m3dc.analysis import Analyser, Analysis
 
+from .client import Client
 from .settings import Settings
 from .snapshot import Snapshot
 from .text import Text
@@ -28,13 +29,14 @@ class Document:
     """
 
     def __init__(
-        self, uri: str, text: Text, version: int, settings: Settings, executor: Executor,
+        self, uri: str, text: Text, version: int, settings: Settings, client: Client, executor: Executor,
         looked_at: Callable[[Document, Snapshot], None],
     ) -> None:  # fmt: skip
         self.uri = uri
         self.text = text
         self.version = version
         self.settings = settings
+        self.client = client
         self.good: Snapshot | None = None
         self._snapshot: Snapshot | None = None
         self._executor = executor
@@ -123,7 +125,7 @@ class Document:
             self._waiting = []
             raise error
         analysis, self._seconds = done.result()
-        snapshot = Snapshot(self.uri, version, text, analysis, self.settings)
+        snapshot = Snapshot(self.uri, version, text, analysis, self.settings, self.client)
         if analysis.ok:
             self.good = snapshot
         if text is not self.text:

@@ -8,6 +8,7 @@ from urllib.parse import unquote, urlsplit
 
 from lsprotocol import types
 
+from .client import Client
 from .document import Document
 from .settings import Settings
 from .snapshot import Snapshot
@@ -20,6 +21,7 @@ class Documents:
     def __init__(self, looked_at: Callable[[Document, Snapshot], None]) -> None:
         self.encoding = types.PositionEncodingKind.Utf16.value
         self.settings = Settings()
+        self.client = Client()
         self._looked_at = looked_at
         self._documents: dict[str, Document] = {}
         self._executor = ThreadPoolExecutor(1, "analysis")
@@ -34,7 +36,7 @@ class Documents:
         self.close(item.uri)
         text = Text.of(item.text, file_name(item.uri), self.encoding)
         self._documents[item.uri] = Document(
-            item.uri, text, item.version, self.settings, self._executor, self._looked_at
+            item.uri, text, item.version, self.settings, self.client, self._executor, self._looked_at
         )
 
     def change(self, params: types.DidChangeTextDocumentParams) -> None:

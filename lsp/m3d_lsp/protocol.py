@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 from lsprotocol import types
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
+from .client import Client
 from .registry import RefusalError
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ class Protocol(LanguageServerProtocol):
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> Any:
         encoding = self.workspace.position_encoding
         self._own.documents.encoding = str(getattr(encoding, "value", encoding))
+        self._own.documents.client = Client.of(self._own.client_capabilities)
         self._own.documents.open(params.text_document)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)

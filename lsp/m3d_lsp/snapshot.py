@@ -8,6 +8,7 @@ from lsprotocol import types
 
 from m3dc.analysis import Analysis
 
+from .client import Client
 from .settings import Settings
 from .text import Span, Text
 
@@ -21,6 +22,7 @@ class Snapshot:
     text: Text
     analysis: Analysis
     settings: Settings
+    client: Client
 
     def offset(self, position: types.Position) -> int:
         """The byte at a position."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from string import Template
 
-from tree_sitter_m3d.table import Argument, Block, Bounds, Default, Language, Page, Statement, Table
+from tree_sitter_m3d.phrases import facts, listed, table_facts, written
+from tree_sitter_m3d.table import Block, Language, Page, Statement, Table
 
 HEADER = "<!-- Generated from grammar/language.toml by `make generate`. -->\n"
 
@@ -56,7 +57,7 @@ def _page(language: Language, page: Page) -> str:
 
 def _shared(blocks: Sequence[Block]) -> str:
     """The statements of blocks that have the same ones."""
-    names = _listed(block.keyword for block in blocks)
+    names = listed(block.keyword for block in blocks)
     return f"## Statements of {names}\n\nEach may hold all of these, and says which it uses.\n\n" + "\n".join(
         _members(blocks[0])
     )
@@ -67,18 +68,18 @@ def _block(language: Language, block: Block) -> str:
     where = [f"in {_links(language, places)}"] if places else []
     if block.keyword in language.top:
         where.append("at top level")
-    facts = [f"Stands {' and '.join(where)}."]
+    about = [f"Stands {' and '.join(where)}."]
     if block.holds:
-        facts.append(f"Holds {_links(language, block.holds)}.")
+        about.append(f"Holds {_links(language, block.holds)}.")
     if block.uses:
-        facts.append(f"Uses {_listed(f'`{keyword}`' for keyword in block.uses)}.")
+        about.append(f"Uses {listed(f'`{keyword}`' for keyword in block.uses)}.")
     if block.variable:
-        facts.append("A variable type.")
+        about.append("A variable type.")
     if block.adds:
-        facts.append("Any number of them.")
+        about.append("Any number of them.")
     if block.once:
-        facts.append(f"Only one: *{block.once}*.")
-    return f"## {block.keyword}\n\n{block.says}\n\n```m3d\n{block.example}\n```\n\n{' '.join(facts)}\n"
+        about.append(f"Only one: *{block.once}*.")
+    return f"## {block.keyword}\n\n{block.says}\n\n```m3d\n{block.example}\n```\n\n{' '.join(about)}\n"
 
 
 def _members(block: Block) -> list[str]:
@@ -88,32 +89,20 @@ def _members(block: Block) -> list[str]:
 
 def _statement(statement: Statement) -> str:
     arguments = ", ".join(f"*{argument.name}*" for argument in statement.arguments)
-    facts = [_takes(statement.arguments)] if statement.arguments else []
-    if default := _default(statement.default):
-        facts.append(default)
-    bounds = [statement.bounds] if statement.bounds else [argument.bounds for argument in statement.arguments]
-    facts += dict.fromkeys(_bounds(bound) for bound in bounds if bound)
-    if statement.often != _of_kind(statement):
-        facts.append("Often: " + ", ".join(f"{_value(value)} {label}" for label, value in statement.often.items()))
     head = f"### `{statement.keyword}` {arguments}".rstrip()
-    lines = "".join(f"- {fact}\n" for fact in [*facts, f"Thesis: {statement.thesis}"])
-    return f"{head}\n\n{statement.says}\n\n{lines}"
+    return f"{head}\n\n{statement.says}\n\n{_list(facts(statement), statement.thesis)}"
 
 
 def _table(table: Table) -> str:
-    head = f"first {_takes(table.head, capital=False)}; " if table.head else ""
-    facts = [f"Holds {head}rows of {_takes(table.row, capital=False)}", f"Thesis: {table.thesis}"]
-    facts[1:1] = dict.fromkeys(
-        f"`{argument.name}`: {_bounds(argument.bounds, capital=False)}"
-        for argument in (*table.head, *table.row)
-        if argument.bounds
-    )
-    lines = "".join(f"- {fact}\n" for fact in facts)
-    return f"### `{table.keyword}` {{ ... }}\n\n{table.says}\n\n{lines}"
+    return f"### `{table.keyword}` {{ ... }}\n\n{table.says}\n\n{_list(table_facts(table), table.thesis)}"
+
+
+def _list(found: Iterable[str], thesis: str) -> str:
+    return "".join(f"- {fact}\n" for fact in [*found, f"Thesis: {thesis}"])
 
 
 def _variables(language: Language) -> str:
-    types = [f"| `{basic.keyword}` | {basic.says} | {_value(basic.default)} |" for basic in language.basics.values()]
+    types = [f"| `{basic.keyword}` | {basic.says} | `{written(basic.default)}` |" for basic in language.basics.values()]
     for block in language.blocks.values():
         if block.variable:
             types.append(f"| {_link(language, block.keyword)} | {block.says} | an empty block |")
@@ -166,12 +155,6 @@ def _index(language: Language) -> str:
 # --- phrases ----------------------------------------------------------------------------------------------------
 
 
-def _listed(words: Iterable[str]) -> str:
-    """`a, b and c`."""
-    *before, last = words
-    return f"{', '.join(before)} and {last}" if before else last
-
-
 def _link(language: Language, keyword: str) -> str:
     section = language.blocks[keyword].thesis
     page = next(page.name for page in language.pages if page.thesis == section)
@@ -179,42 +162,4 @@ def _link(language: Language, keyword: str) -> str:
 
 
 def _links(language: Language, keywords: Iterable[str]) -> str:
-    return _listed(_link(language, keyword) for keyword in keywords)
-
-
-def _takes(arguments: Iterable[Argument], *, capital: bool = True) -> str:
-    words = [
-        f"{'an' if argument.shape == 'integer' else 'a'} {argument.shape} `{argument.name}`"
-        + (f" in {argument.unit}" if argument.unit else "")
-        for argument in arguments
-    ]
-    return f"{'Takes ' if capital else ''}{_listed(words)}"
-
-
-def _value(value: Default) -> str:
-    if isinstance(value, tuple):
-        numbers = ", ".join(f"{number:g}" for number in value)
-        return f"`< {numbers} >`" if len(value) == 3 else f"`{numbers}`"
-    return f"`{value:g}`"
-
-
-def _of_kind(statement: Statement) -> Mapping[str, Default]:
-    """The values often wanted that are those of the argument's kind."""
-    known = statement.arguments[0].often if len(statement.arguments) == 1 else {}
-    return {label: value for label, value in known.items() if label in statement.often}
-
-
-def _default(value: Default) -> str:
-    if value is None or value is False:
-        return ""
-    return "On by default" if value is True else f"Default: {_value(value)}"
-
-
-def _bounds(bounds: Bounds, *, capital: bool = True) -> str:
-    outside = {
-        "error": "anything else is an error",
-        "default": "anything else is replaced by the default, with a warning",
-        "limit": "anything else is replaced by the nearest of these, with a warning",
-        "warn": "anything else is taken, with a warning",
-    }[bounds.policy]
-    return f"{'Allowed' if capital else 'allowed'}: {bounds.interval}; {outside}: *{bounds.message}*"
+    return listed(_link(language, keyword) for keyword in keywords)

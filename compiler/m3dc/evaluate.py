@@ -8,7 +8,7 @@ their value; those that do more have an entry in `MEANING`, and what must hold o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -50,12 +50,22 @@ class World(NamedTuple):
     made: tuple[Made, ...]
 
 
-class Evaluator:
-    """Holds the variables while the items of one scene are run in order."""
+def value_at_first(type_: str, span: Span) -> Value:
+    """What a variable declared at `span` holds until it is assigned to."""
+    if type_ == "NUMBER":
+        return 0.0
+    if type_ == "VECTOR":
+        return (0.0, 0.0, 0.0)
+    return Record(type_, span)
 
-    def __init__(self, findings: Findings) -> None:
+
+class Evaluator:
+    """Holds the variables while the items of one scene are run in order. They may be given what they are at first."""
+
+    def __init__(self, findings: Findings, variables: Mapping[str, Value] | None = None) -> None:
         self._findings = findings
         self._variables: Ledger[Value] = Ledger()
+        self._variables.update(variables or {})
         self._lights: list[Record] = []  # of the item being run
 
     def run(self, items: Iterable[program.Item], faulty: frozenset[int], steps: Steps | None = None) -> World:
@@ -97,15 +107,9 @@ class Evaluator:
                 return Made(None, scene, solids, lights)
             case declarations:
                 for declaration in declarations:
-                    self._variables[declaration.name.text] = self._default(declaration)
+                    span = self._findings.absolute(declaration.name.span)
+                    self._variables[declaration.name.text] = value_at_first(declaration.type, span)
                 return Made(None, None, (), ())
-
-    def _default(self, declaration: program.Declaration) -> Value:
-        if declaration.type == "NUMBER":
-            return 0.0
-        if declaration.type == "VECTOR":
-            return (0.0, 0.0, 0.0)
-        return Record(declaration.type, self._findings.absolute(declaration.name.span))
 
     def _assign(self, item: program.Assignment) -> Value:
         name = item.target.text

@@ -1,0 +1,165 @@
+"""The place of a cursor in text that is being typed: what it stands in, and what could stand there.
+
+The tree is of little use where the text is broken, so the text before the cursor is read by the formal grammar, from
+the beginning of the top-level item that the cursor is in.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from tree_sitter import Tree
+
+from tree_sitter_m3d import blank_comments
+from tree_sitter_m3d.prefix import NOTHING, Prefix, Token, read_prefix
+from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Statement, Table
+
+from .names import names
+from .snapshot import Snapshot
+from .text import Span
+
+# What begins an item: nothing else stands at the top level, and these stand nowhere else, but for SOLID and LIGHT as
+# types of variables.
+_ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b[A-Za-z]\w*\s*=")
+_LONG_TABLE = re.compile(r"[A-Z]+\s*\{[^{}A-DF-Za-df-z]{500,}\}")
+_WORD = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
+
+# How far back the beginning of the item is looked for.
+_NEAR, _FAR = 2_000, 500_000
+_LONGEST_WORD = 300
+
+
+class Slot(NamedTuple):
+    """Where in a list of arguments a value stands or could stand: which argument, which `component` of a vector, and
+    its `number` when every component is counted."""
+
+    argument: Argument
+    component: int | None
+    number: int
+
+
+class Cursor(NamedTuple):
+    """A place in the text. `word` is what is being typed there, up to the cursor, in bytes; `block` the block of the
+    language whose members may stand there, `entry` the statement or table that was begun, `slot` its argument."""
+
+    prefix: Prefix
+    word: Span
+    block: Block | None
+    entry: Statement | Table | None
+    slot: Slot | None
+
+    @property
+    def last(self) -> Token | None:
+        """The token before the word."""
+        return self.prefix.member[-1] if self.prefix.member else None
+
+
+def read(snapshot: Snapshot, offset: int) -> Cursor:
+    """The place of a byte of the text."""
+    data = snapshot.text.data
+    before = _WORD.search(data[max(offset - _LONGEST_WORD, 0) : offset])
+    start = offset - len(before[0]) if before else offset
+    prefix = read_prefix(_item_before(data, snapshot.analysis.tree, start) or "")
+    if _in_comment(snapshot.analysis.tree, offset):
+        prefix = NOTHING
+    block = _block(snapshot, prefix)
+    entry = _entry(prefix, block)
+    return Cursor(prefix, (start, offset), block, entry, _slot(prefix, entry))
+
+
+def _in_comment(tree: Tree, offset: int) -> bool:
+    node = tree.root_node.descendant_for_byte_range(max(offset - 1, 0), offset)
+    return node is not None and node.type == "comment" and node.start_byte < offset < node.end_byte
+
+
+def _item_before(data: bytes, tree: Tree, end: int) -> str | None:
+    """The text from the beginning of a top-level item, the one that a byte is in or the one before, up to the byte;
+    long tables are left out. None inside of a very long one."""
+    reach = _NEAR
+    while True:
+        start = max(end - reach, 0)
+        node = tree.root_node.descendant_for_byte_range(start, start)
+        if start and node is not None and node.type == "comment" and node.end_byte <= end:
+            start = node.end_byte
+        text = blank_comments(data[start:end].decode("utf-8", "replace"))
+        item = _last_item(text)
+        if item is not None or start == 0:
+            return _LONG_TABLE.sub("", text[item or 0 :])
+        if reach >= _FAR:
+            return None
+        reach *= 8
+
+
+def _last_item(text: str) -> int | None:
+    """Where the last item begins whose beginning is certain."""
+    starts = list(_ITEM.finditer(text))
+    for number in range(len(starts) - 1, -1, -1):
+        match = starts[number]
+        if match[0] not in LANGUAGE.types:
+            return match.start()
+        # Is it a type among declarations? They hold no brace.
+        opening = text.rfind("{", 0, match.start())
+        closing = text.rfind("}", 0, match.start())
+        if opening < 0 and closing < 0:
+            continue
+        if closing > opening or not text[:opening].rstrip().endswith("VARIABLES"):
+            return match.start()
+    return None
+
+
+def _block(snapshot: Snapshot, prefix: Prefix) -> Block | None:
+    """The innermost block; for a table the one it belongs to."""
+    for opened in reversed(prefix.opened):
+        if opened.target is not None:
+            return LANGUAGE.blocks.get(names(snapshot.analysis).type(opened.target) or "")
+        keyword = opened.keyword
+        if keyword is None or keyword in LANGUAGE.blocks:
+            return LANGUAGE.blocks.get(keyword or "")
+    return None
+
+
+def _entry(prefix: Prefix, block: Block | None) -> Statement | Table | None:
+    if block is None:
+        return None
+    innermost = prefix.opened[-1].keyword
+    if innermost in block.tables:
+        return block.tables[innermost]
+    return block.statements.get(prefix.member[0].text) if prefix.member else None
+
+
+def _slot(prefix: Prefix, entry: Statement | Table | None) -> Slot | None:
+    """The argument that the next value is, or the last one, if none can follow."""
+    match entry:
+        case Statement(arguments=arguments) if arguments:
+            return _walk(arguments, (), prefix.member[1:])
+        case Table():
+            return _walk(entry.head, entry.row, prefix.member)
+        case _:
+            return None
+
+
+def _walk(head: tuple[Argument, ...], row: tuple[Argument, ...], tokens: tuple[Token, ...]) -> Slot:
+    """Past the values that are there: those of the head, and then of rows."""
+    index, component = 0, None
+    for token in tokens:
+        match token.terminal:
+            case "LANGLE":
+                component = 0
+            case "COMMA" if component is not None:
+                component += 1
+            case "RANGLE":
+                component, index = None, index + 1
+            case "NUMERAL" | "IDENTIFIER" if component is None:
+                index += 1
+            case _:
+                pass
+    if index >= len(head) and not row:
+        index = len(head) - 1
+    arguments = [*head, *row]
+    if index >= len(arguments):
+        index = len(head) + (index - len(head)) % len(row)
+    number = sum(max(len(argument.components), 1) for argument in arguments[:index])
+    argument = arguments[index]
+    component = min(component, len(argument.components) - 1) if component is not None and argument.components else None
+    return Slot(argument, component, number + (component or 0))

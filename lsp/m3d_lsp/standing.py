@@ -1,0 +1,118 @@
+"""What the statements around a place of the text have made: the records of the blocks that it stands in.
+
+An item is run again, alone and only as far as the place asked for, with its variables as they are before it. So what
+is told of a block is what it is where it stands, whatever a later statement makes of it.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import NamedTuple
+
+from m3dc import program
+from m3dc.analysis import Analysis
+from m3dc.diagnostics import Findings
+from m3dc.evaluate import Evaluator, Made, value_at_first
+from m3dc.transform import IDENTITY, Transform
+from m3dc.values import Record, Value
+
+
+class Standing(NamedTuple):
+    """The blocks around a place, from the outermost inwards.
+
+    `item` is the top-level item and `made` what all of it makes; `records` are the values of the blocks around the
+    place, without TRANSFORM, each as far as it was run; `blocks` are the blocks inside of the item. `member` is the
+    statement or table at the place, `transform` the matrix of the innermost record.
+    """
+
+    item: program.Item
+    made: Made
+    records: tuple[Record, ...]
+    blocks: tuple[program.Block, ...]
+    member: program.Statement | program.Table | None
+    transform: Transform
+
+    @property
+    def innermost(self) -> Record:
+        return self.records[-1]
+
+    @property
+    def whole(self) -> Record:
+        """The value of the item, after all of it."""
+        record = _record(self.made)
+        assert record is not None
+        return record
+
+
+def standing(analysis: Analysis, offset: int) -> Standing | None:
+    """What the blocks around a byte have made; None at top level, and where what is there is wrong."""
+    index = bisect_right(analysis.program, offset, key=lambda item: item.start) - 1
+    if index < 0:
+        return None
+    item, made = analysis.program[index], analysis.world.made[index]
+    content, at = item.content, offset - item.start
+    if isinstance(content, tuple) and not isinstance(content, (program.Block, program.Assignment)):
+        return None
+    if content.body is None or at > content.span[1] or _record(made) is None:
+        return None
+    body, blocks, member = _cut(content.body, at, in_transform=_type(content) == "TRANSFORM")
+    evaluator = Evaluator(Findings(), _variables_before(analysis, index))
+    run = evaluator.run([item._replace(content=content._replace(body=body))], frozenset())
+    record = _record(run.made[0])
+    assert record is not None
+    records = [record]
+    for block in blocks:
+        keyword = block.entry.keyword
+        if keyword != "TRANSFORM":
+            inner = records[-1].parts[-1] if block.entry.adds else records[-1].nested[keyword]
+            records.append(inner)
+    return Standing(item, made, tuple(records), tuple(blocks), member, records[-1].transform)
+
+
+def in_scene(here: Standing) -> Transform:
+    """What takes the innermost record's own coordinates to those of the scene, or of the variable assigned to."""
+    if len(here.records) == 1:
+        return here.transform
+    outer = here.whole.transform if here.whole.block in ("SOLID", "LIGHT") else IDENTITY
+    return here.transform.then(outer)
+
+
+def _record(made: Made) -> Record | None:
+    if isinstance(made.value, Record):
+        return made.value
+    return made.scene or next(iter((*made.solids, *made.lights)), None)
+
+
+def _type(content: program.Block | program.Assignment) -> str:
+    return content.type if isinstance(content, program.Assignment) else content.entry.keyword
+
+
+def _cut(
+    body: tuple[program.Member, ...], at: int, *, in_transform: bool
+) -> tuple[tuple[program.Member, ...], list[program.Block], program.Statement | program.Table | None]:
+    """A body without what follows the block that holds a place, or, among transformations, the statement; the blocks
+    around the place, and the statement or table there."""
+    for number, member in enumerate(body):
+        start, end = member.span
+        if not start <= at < end:
+            continue
+        if isinstance(member, program.Block):
+            inner, blocks, found = _cut(member.body, at, in_transform=member.entry.keyword == "TRANSFORM")
+            return (*body[:number], member._replace(body=inner)), [member, *blocks], found
+        return (body[: number + 1] if in_transform else body), [], member
+    return body, [], None
+
+
+def _variables_before(analysis: Analysis, index: int) -> dict[str, Value]:
+    """What every variable is worth before an item of the program."""
+    values: dict[str, Value] = {}
+    for item, made in zip(analysis.program[:index], analysis.world.made, strict=False):
+        content = item.content
+        if isinstance(content, program.Assignment):
+            if made.value is not None:
+                values[content.target.text] = made.value
+        elif not isinstance(content, program.Block):
+            for declaration in content:
+                start, end = declaration.name.span
+                values[declaration.name.text] = value_at_first(declaration.type, (item.base + start, item.base + end))
+    return values

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from enum import Enum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 from m3dc import ast, program
 from m3dc.analysis import Analysis
-from m3dc.values import Value
+from m3dc.values import Value, Vector
 
 from .text import Span
 
@@ -31,6 +32,15 @@ class Occurrence(NamedTuple):
     role: Role
     type: str = ""
     type_span: Span | None = None
+
+
+class _Assigned(NamedTuple):
+    """The value that a variable has after the assignment from `start` to `end`, and in its target."""
+
+    start: int
+    target_end: int
+    end: int
+    value: Value
 
 
 class Names:
@@ -81,16 +91,31 @@ class Names:
     def value(self, name: str, offset: int) -> Value | None:
         """What a variable is worth at a byte, in the statement that holds it: for the target of an assignment, what it
         is worth after it. None if it has not been assigned to, or not with what could be read."""
-        value: Value | None = None
+        for value in reversed(self._values.get(name, ())):
+            if value.start <= offset and (offset >= value.end or offset <= value.target_end):
+                return value.value
+        return None
+
+    def component(self, component: ast.Number | ast.Name, offset: int) -> float | None:
+        """What a component of a vector is worth, in the statement at a byte; None where it is no number."""
+        value = component.value if isinstance(component, ast.Number) else self.value(component.text, offset)
+        return value if isinstance(value, (int, float)) and math.isfinite(value) else None
+
+    def vector(self, vector: ast.Vector, offset: int) -> Vector | None:
+        """What a vector is worth, in the statement at a byte; None where a component is not known."""
+        x, y, z = (self.component(component, offset) for component in vector.components)
+        return None if x is None or y is None or z is None else (x, y, z)
+
+    @cached_property
+    def _values(self) -> dict[str, list[_Assigned]]:
+        """The values of each variable, in the order of the text."""
+        found: dict[str, list[_Assigned]] = {}
         for item, made in zip(self._analysis.program, self._analysis.world.made, strict=True):
             content = item.content
-            if item.start > offset:
-                break
-            if isinstance(content, program.Assignment) and content.target.text == name:
-                after_target = item.start + content.target.span[1]
-                if offset >= item.start + content.span[1] or offset <= after_target:
-                    value = made.value
-        return value
+            if isinstance(content, program.Assignment) and made.value is not None:
+                end, target_end = item.start + content.span[1], item.start + content.target.span[1]
+                found.setdefault(content.target.text, []).append(_Assigned(item.start, target_end, end, made.value))
+        return found
 
 
 def _moved(span: Span, start: int) -> Span:

@@ -13,6 +13,7 @@ from m3dc import program
 from m3dc.analysis import Analysis
 from m3dc.diagnostics import Findings
 from m3dc.evaluate import Evaluator, Made, value_at_first
+from m3dc.places import Places
 from m3dc.transform import IDENTITY, Transform
 from m3dc.values import Record, Value
 
@@ -31,6 +32,7 @@ class Standing(NamedTuple):
     blocks: tuple[program.Block, ...]
     member: program.Statement | program.Table | None
     transform: Transform
+    places: Places
 
     @property
     def innermost(self) -> Record:
@@ -66,7 +68,7 @@ def standing(analysis: Analysis, offset: int) -> Standing | None:
         if keyword != "TRANSFORM":
             inner = records[-1].parts[-1] if block.entry.adds else records[-1].nested[keyword]
             records.append(inner)
-    return Standing(item, made, tuple(records), tuple(blocks), member, records[-1].transform)
+    return Standing(item, made, tuple(records), tuple(blocks), member, records[-1].transform, analysis.places)
 
 
 def in_scene(here: Standing) -> Transform:

@@ -1,0 +1,136 @@
+"""Where colours stand in a scene: in statements and tables that take one, and in the vectors that end up there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+from m3dc import ast, program
+from m3dc.analysis import Analysis
+from m3dc.values import Vector
+from tree_sitter_m3d import blank_comments
+from tree_sitter_m3d.table import Argument
+
+from .names import Names, names
+from .rows import row_starts
+from .text import Span
+
+KIND = "color"
+_VECTOR = re.compile(r"<[^>]*>")
+# A table of colours has 20 rows at most; one that is longer is not looked at.
+_MOST_ROWS = 100
+
+
+class Colour(NamedTuple):
+    """A colour in the text. `variable` is the name of the variable, where it stands for the colour."""
+
+    span: Span
+    value: Vector
+    variable: str | None
+
+
+class _Use(NamedTuple):
+    """An argument that is a colour, in the item that begins at `start`."""
+
+    argument: ast.Vector | ast.Name
+    start: int
+
+
+@lru_cache(maxsize=8)
+def colours(analysis: Analysis) -> list[Colour]:
+    """Every colour of a scene, as far as it is right, in the order of the text."""
+    known = names(analysis)
+    uses = list(_uses(analysis))
+    variables = color_variables(analysis)
+    for item in analysis.program:
+        content = item.content
+        if not isinstance(content, program.Assignment) or content.target.text not in variables:
+            continue
+        if isinstance(content.value, (ast.Vector, ast.Name)):
+            uses.append(_Use(content.value, item.start))
+    found = [colour for use in uses if (colour := _colour(use, known)) is not None]
+    return sorted([*found, *_in_tables(analysis)])
+
+
+@lru_cache(maxsize=8)
+def color_variables(analysis: Analysis) -> frozenset[str]:
+    """The vectors that are used as colours, or whose value another takes that is."""
+    found = {use.argument.text for use in _uses(analysis) if isinstance(use.argument, ast.Name)}
+    for item in reversed(analysis.program):
+        content = item.content
+        if not isinstance(content, program.Assignment) or content.target.text not in found:
+            continue
+        if isinstance(content.value, ast.Name):
+            found.add(content.value.text)
+    return frozenset(found)
+
+
+def _uses(analysis: Analysis) -> Iterator[_Use]:
+    for item in analysis.program:
+        content = item.content
+        if isinstance(content, (program.Block, program.Assignment)):
+            for argument in _in_body(content.body or ()):
+                yield _Use(argument, item.start)
+
+
+def _in_body(body: tuple[program.Member, ...]) -> Iterator[ast.Vector | ast.Name]:
+    for member in body:
+        match member:
+            case program.Block():
+                yield from _in_body(member.body)
+            case program.Statement():
+                yield from _of_kind(member.entry.arguments, member.arguments)
+            case program.Table():
+                for row in member.rows:
+                    yield from _of_kind(member.entry.row, row)
+
+
+def _of_kind(expected: tuple[Argument, ...], given: tuple[ast.Argument, ...]) -> Iterator[ast.Vector | ast.Name]:
+    for wanted, argument in zip(expected, given, strict=False):
+        if wanted.kind == KIND and not isinstance(argument, ast.Number):
+            yield argument
+
+
+def _colour(use: _Use, known: Names) -> Colour | None:
+    start, end = use.argument.span
+    span = start + use.start, end + use.start
+    if isinstance(use.argument, ast.Vector):
+        value = known.vector(use.argument, span[0])
+        return None if value is None else Colour(span, value, None)
+    value = known.value(use.argument.text, span[0])
+    return Colour(span, value, use.argument.text) if isinstance(value, tuple) else None
+
+
+def _in_tables(analysis: Analysis) -> Iterator[Colour]:
+    """The colours in tables that hold nothing but numbers."""
+    for item in analysis.program:
+        content = item.content
+        if not isinstance(content, (program.Block, program.Assignment)):
+            continue
+        for table in _tables(content.body or ()):
+            if any(argument.kind == KIND for argument in table.entry.row):
+                yield from _in_rows(table, item.start, analysis.source.data)
+
+
+def _tables(body: tuple[program.Member, ...]) -> Iterator[program.Table]:
+    for member in body:
+        if isinstance(member, program.Block):
+            yield from _tables(member.body)
+        elif isinstance(member, program.Table):
+            yield member
+
+
+def _in_rows(table: program.Table, item: int, data: bytes) -> Iterator[Colour]:
+    starts = row_starts(table, item)
+    if table.bulk is None or not 0 < len(starts) <= _MOST_ROWS:
+        return
+    first, end = int(starts[0]), item + table.span[1]
+    text = blank_comments(data[first:end].decode("latin-1"))
+    for match in _VECTOR.finditer(text):
+        try:
+            x, y, z = (float(number) for number in match[0][1:-1].split(","))
+        except ValueError:
+            continue
+        yield Colour((first + match.start(), first + match.end()), (x, y, z), None)

@@ -1,0 +1,146 @@
+"""What a block comes to in the scene, in Markdown: matrices, places, extents, directions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from m3dc.evaluate import World
+from m3dc.ir import PRIMITIVE_TABLE, Extent, PrimitiveKind, SceneIR
+from m3dc.lower import lower, view
+from m3dc.places import Places
+from m3dc.transform import IDENTITY, Transform, unit
+from m3dc.values import Record
+
+from .markdown import matrix
+from .standing import Standing, in_scene
+from .summary import number, vector
+
+_KINDS = {kind.name for kind in PrimitiveKind}
+
+
+def facts(here: Standing, keyword: str) -> str:
+    """What the block that begins with a keyword, or that the innermost record is, comes to; '' if nothing is known."""
+    record = here.innermost
+    if keyword == "TRANSFORM":
+        return transformation(here)
+    if keyword in _KINDS and record.block == keyword:
+        return _primitive(here, record)
+    if keyword in ("SOLID", "LIGHT") and record.block == keyword:
+        return _object(here, record)
+    if keyword in ("SUN", "SOURCE") and record.block == keyword:
+        return _light(here, record)
+    if keyword == "VIEW" and record.block == keyword:
+        return _view(record)
+    return ""
+
+
+def transformation(here: Standing) -> str:
+    """The matrix that the statements up to a place make, and that of the innermost record in the scene."""
+    scene = in_scene(here)
+    parts = ["Up to here, points (as rows) are multiplied by", matrix(here.transform.matrix.tolist())]
+    if not np.array_equal(scene.matrix, here.transform.matrix):
+        parts += [f"and with all of the {here.whole.block} by", matrix(scene.matrix.tolist())]
+    parts.append(f"The origin goes to `{vector(scene.points(np.zeros(3)))}`.")
+    return "\n\n".join(parts)
+
+
+def of_transform(transform: Transform) -> str:
+    """A matrix, and where it takes the origin."""
+    return f"{matrix(transform.matrix.tolist())}\n\nThe origin goes to `{vector(transform.points(np.zeros(3)))}`."
+
+
+def point(here: Standing, value: tuple[float, float, float]) -> str:
+    """Where a point of a primitive is in the scene; '' if it is not moved."""
+    transform = in_scene(here)
+    if here.innermost.block not in _KINDS or transform is IDENTITY:
+        return ""
+    return f"{_where(here)} `{vector(transform.points(np.array(value)))}`"
+
+
+def _where(here: Standing) -> str:
+    return "In the scene:" if here.whole.block in ("SOLID", "LIGHT") and here.made.value is None else "Moved to:"
+
+
+def _primitive(here: Standing, record: Record) -> str:
+    transform = here.whole.transform if len(here.records) > 1 else IDENTITY
+    ir = _alone(record, transform, here.places)
+    lines: list[str] = []
+    kind = PrimitiveKind[record.block]
+    rows = ir[PRIMITIVE_TABLE[kind]]
+    if kind is PrimitiveKind.SPHERE:
+        lines.append(f"centre `{vector(rows['center'][0])}`, radius `{number(rows['radius'][0])}`")
+    elif kind in (PrimitiveKind.POLYGONS, PrimitiveKind.TERRAIN):
+        lines.append(f"{int(rows['vertex_count'][0])} vertices, {int(rows['facet_count'][0])} facets")
+    else:
+        p, u, v = (rows[column][0] for column in ("point", "u", "v"))
+        lines.append(f"corners `{vector(p + v)}`, `{vector(p)}`, `{vector(p + u)}`")
+        lines.append(f"normal `{vector(unit(rows['normal'][0]))}`")
+    lines += _extent(ir.scene.extent)
+    where = "In the scene" if here.made.value is None else "With its transform"
+    return f"{where}:\n\n" + _list(lines) + _matrix(in_scene(here))
+
+
+def _object(here: Standing, record: Record) -> str:
+    ir = _alone_object(record, here.places)
+    counts: dict[str, int] = {}
+    for part in record.parts:
+        counts[part.block] = counts.get(part.block, 0) + 1
+    lines = [", ".join(f"{count} {keyword}" for keyword, count in counts.items())] if counts else []
+    lines += _extent(ir.scene.extent)
+    return f"In the scene:\n\n{_list(lines)}{_matrix(record.transform)}" if lines else ""
+
+
+def _light(here: Standing, record: Record) -> str:
+    direction = unit(np.array(record.vector("DIRECTION")))
+    if here.whole.block == "LIGHT":
+        direction = unit(here.whole.transform.vectors(direction))
+    lines = [f"shines along `{vector(direction)}`"]
+    elevation = math.degrees(math.asin(max(-1.0, min(1.0, -float(direction[2])))))
+    lines.append(f"its light comes from {number(elevation)} degrees above the horizon")
+    if record.block == "SOURCE" and not record.flag("INFINITE"):
+        lines[1] = f"stands at `{vector(here.whole.transform.points(np.array(record.vector('FROM'))))}`"
+    return _list(lines)
+
+
+def _view(record: Record) -> str:
+    camera = view(record)
+    height = 2 * math.degrees(
+        math.atan(math.tan(math.radians(camera.fov / 2)) * camera.height / camera.width * camera.aspect)
+    )
+    distance = math.dist(camera.eye, camera.target)
+    return _list([
+        f"looks along `{vector(camera.normal)}`; the point looked at is {number(distance)} away",
+        f"field of view {number(camera.fov)} x {number(height)} degrees",
+        f"{camera.width} x {camera.height} pixels, each {camera.fov * 60 / camera.width:.3g} arcminutes wide",
+    ])  # fmt: skip
+
+
+def _alone(part: Record, transform: Transform, places: Places) -> SceneIR:
+    """The IR of one primitive in an object with a transform."""
+    solid = Record("SOLID", part.span)
+    solid.parts, solid.transform = (part,), transform
+    return _alone_object(solid, places)
+
+
+def _alone_object(record: Record, places: Places) -> SceneIR:
+    """The IR of the primitives of one solid or light."""
+    solid = Record("SOLID", (0, 0))
+    solid.parts, solid.transform = record.parts, record.transform
+    return lower(World(Record("SCENE", (0, 0)), (solid,), (), ()), "", places)
+
+
+def _extent(extent: Extent | None) -> list[str]:
+    if extent is None:
+        return []
+    sides = zip("xyz", extent.minimum, extent.maximum, strict=True)
+    return ["extents " + ", ".join(f"{name} `{number(low)}` to `{number(high)}`" for name, low, high in sides)]
+
+
+def _matrix(transform: Transform) -> str:
+    return "" if transform is IDENTITY else "\n\n" + matrix(transform.matrix.tolist())
+
+
+def _list(lines: list[str]) -> str:
+    return "\n".join(f"- {line}" for line in lines)

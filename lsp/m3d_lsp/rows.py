@@ -1,0 +1,125 @@
+"""What a row of a table says, in Markdown: which vertex it is and where, which facet, what the air does to light."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from m3dc import program
+from m3dc.evaluate import World
+from m3dc.lower import lower
+from m3dc.values import Record, TableValue
+
+from .markdown import shown
+from .standing import Standing, in_scene
+from .summary import number, vector
+
+
+class Row(NamedTuple):
+    """A row of a table: its number in the text, the values of the whole table, and which of its rows it is."""
+
+    number: int
+    table: TableValue
+    index: int
+
+
+def row_at(here: Standing, offset: int) -> Row | None:
+    """The row of the table around a byte; None in its head, and where the table could not be read."""
+    member = here.member
+    if not isinstance(member, program.Table):
+        return None
+    value = here.innermost.tables.get(member.entry.keyword)
+    if value is None:
+        return None
+    starts = row_starts(member, here.item.start)
+    row = int(np.searchsorted(starts, offset, side="right")) - 1
+    # Colour ranges are added to those there are already.
+    index = row + len(value.rows) - len(starts)
+    return Row(row, value, index) if row >= 0 and 0 <= index < len(value.rows) else None
+
+
+def row_starts(table: program.Table, start: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """Where the rows of a table begin, in bytes of the text, when its item begins at `start`."""
+    if table.bulk is not None:
+        return np.asarray(table.bulk.offsets).astype(np.int64) + (start - table.origin)
+    return np.array([start + row[0].span[0] for row in table.rows], np.int64)
+
+
+def facts(here: Standing, offset: int, *, images: bool) -> str:
+    """What the row around a byte says; '' where there is none."""
+    row = row_at(here, offset)
+    if row is None:
+        return ""
+    keyword = here.member.entry.keyword if here.member is not None else ""
+    values = row.table.rows[row.index]
+    match keyword:
+        case "VERTICES":
+            return _vertex(here, row)
+        case "FACETS" | "SFACETS":
+            return _facet(here, row)
+        case "PROFILE":
+            return _profile(here.innermost, row, here)
+        case "COLORS":
+            start, end = (number(value) for value in values[:2])
+            first, last = (shown(values[columns], images=images) for columns in (slice(2, 5), slice(5, 8)))
+            return f"Range {row.index + 1}: from {start}, {first}, to {end}, {last}"
+        case _:
+            return ""
+
+
+def _vertex(here: Standing, row: Row) -> str:
+    values = row.table.rows[row.index]
+    name = f"Vertex **{row.index}** of {len(row.table.rows)}, counted from 0"
+    if len(row.table.head) == 2:
+        columns = max(row.table.head[1], 1)
+        name = f"Row {row.index // columns}, column {row.index % columns} of the grid, counted from 0"
+    scene = in_scene(here).points(values)
+    return f"{name}: `{vector(values)}`" + ("" if np.array_equal(scene, values) else f"\n\nMoved to `{vector(scene)}`")
+
+
+def _facet(here: Standing, row: Row) -> str:
+    vertices = here.innermost.tables.get("VERTICES")
+    lines = [f"Facet {row.index + 1} of {len(row.table.rows)}:\n"]
+    for corner in row.table.rows[row.index][:3].astype(int).tolist():
+        known = vertices is not None and 0 <= corner < len(vertices.rows)
+        lines.append(f"- vertex {corner}: " + (f"`{vector(vertices.rows[corner])}`" if known and vertices else "none"))
+    return "\n".join(lines)
+
+
+def _profile(mirage: Record, row: Row, here: Standing) -> str:
+    """The air between a point of the profile and its neighbours: the gradient of temperature, and how a level ray is
+    curved there (thesis eq. 2.3)."""
+    from m3d_render.optics import EARTH_CURVATURE, air_layers
+    from m3d_render.rendering import SceneError
+
+    scene = Record("SCENE", (0, 0))
+    scene.nested["MIRAGE"] = mirage
+    try:
+        air = air_layers(lower(World(scene, (), (), ()), "", here.places))
+    except SceneError:
+        return ""
+    rows = row.table.rows
+    parts = [f"{number(rows[row.index][1])} °C at {number(rows[row.index][0])} m"]
+    for name, low in (("Above", row.index), ("Below", row.index - 1)):
+        if not 0 <= low < len(rows) - 1:
+            continue
+        (z0, t0), (z1, t1) = rows[low].tolist(), rows[low + 1].tolist()
+        parts.append(f"**{name}**, {number(z0)} to {number(z1)} m:\n")
+        parts[-1] += f"\n- temperature gradient dT/dz = {(t1 - t0) / (z1 - z0):+.4g} K/m"
+        if low >= len(air.bottom):
+            parts[-1] += "\n- above the ELEVATION of the MIRAGE, rays go on straight"
+            continue
+        curvature, effective = float(air.curvature[low]), float(air.effective[low])
+        parts[-1] += f"\n- ray curvature κ = {curvature:.3e} 1/m, radius {_radius(curvature)}"
+        parts[-1] += f"\n- less the earth's {EARTH_CURVATURE:.3e}: {effective:.3e} 1/m, radius {_radius(effective)}"
+    return "\n\n".join(parts)
+
+
+def _radius(curvature: float) -> str:
+    """The radius of curvature, and to which side."""
+    if curvature == 0.0:
+        return "infinite: straight"
+    radius = abs(1 / curvature) / 1000
+    shown = f"{radius:,.0f}" if radius >= 1000 else f"{radius:.4g}"
+    return f"{shown} km, bent {'down' if curvature > 0 else 'up'}"

@@ -8,7 +8,7 @@ from scene_builder import MERMAN_PROFILE, SceneBuilder
 from scipy.integrate import solve_ivp
 
 from m3d_render import SceneError
-from m3d_render.optics import trace_crossings, trace_paths
+from m3d_render.optics import air_layers, trace_crossings, trace_paths
 
 EPSILON, BETA, GRAVITY, EARTH, SEA_LEVEL = 226e-6, 3.48e-3, 9.80665, 6_371_000.0, 101_325.0
 EYE = 2.1
@@ -102,6 +102,15 @@ def test_heights_agree_with_a_high_order_solution(truth, finer, millimetres):
     assert ground_before == grounded
     assert any(grounded)
     assert not all(grounded)
+
+
+def test_layers_have_the_curvature_of_the_air_in_their_middle():
+    air, layers = Air(MERMAN_PROFILE), air_layers(merman_air())
+    np.testing.assert_array_equal(layers.bottom, air.z[:-1])
+    np.testing.assert_array_equal(layers.top, air.z[1:])
+    bends = [air.bend(i, (low + high) / 2) for i, (low, high) in enumerate(zip(layers.bottom, layers.top, strict=True))]
+    np.testing.assert_allclose(layers.effective, np.negative(bends), rtol=1e-9)
+    np.testing.assert_allclose(layers.curvature - layers.effective, 1 / EARTH, rtol=1e-9)
 
 
 def test_crossings_follow_the_path():

@@ -15,8 +15,10 @@ from m3d_render.wireframe.raster import PAPERS, raster
 from m3d_render.wireframe.svg import svg
 from m3dc.artefact import replacing
 
-WITHOUT_EFFECT = ("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples")
-WITHOUT_EFFECT += ("refract_reflections", "aov", "threads", "stats")
+WITHOUT_EFFECT = (
+    *("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples"),
+    *("refract_reflections", "aov", "threads", "stats"),
+)
 """Options of a rendered picture that say nothing of a wireframe."""
 
 

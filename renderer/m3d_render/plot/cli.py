@@ -3,6 +3,8 @@
 Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
 """
 
+# matplotlib leaves some types of its own open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 import argparse

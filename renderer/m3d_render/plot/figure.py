@@ -3,6 +3,8 @@
 A figure is the same, byte for byte, each time it is made: no date and no random names are in it.
 """
 
+# matplotlib leaves some types of its own open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".svg", ".png", ".pdf")
 DOTS_PER_INCH = 110
 
-_STYLE: dict[str, Any] = {
+_STYLE: Any = {
     "font.size": 8,
     "axes.titlesize": 9,
     "legend.fontsize": 7,

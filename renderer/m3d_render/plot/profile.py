@@ -1,5 +1,7 @@
 """The temperature profile of a scene's air, and how the air bends a level ray at each height. Thesis 2.1 and 6.1."""
 
+# matplotlib leaves some types of its own open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 from collections.abc import Sequence

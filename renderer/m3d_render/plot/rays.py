@@ -3,6 +3,8 @@
 Where neighbouring rays cross, what stands beyond is seen upside down, and what stands there is seen more than once.
 """
 
+# matplotlib leaves some types of its own open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 import math

@@ -5,6 +5,8 @@ it is steep they are stretched (towering), where it is flat compressed (stooping
 is seen three times. The curve is what a picture's column shows of a ruler at that distance.
 """
 
+# matplotlib leaves some types of its own open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 import math

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -69,7 +70,7 @@ def project(
     columns, rows = width or scene.view.width, height or scene.view.height
     marked = frustum_points(ir) if "frustum" in named else np.zeros((0, 3))
     view = above(ir, columns, rows, marked) if from_above else scene.view
-    things = edges(ir) if hidden == "show" else edges(ir, lambda *circle: _roundness(view, columns, *circle))
+    things = edges(ir) if hidden == "show" else edges(ir, partial(_roundness, view, columns))
     groups = [*things, *marks(ir, view, named)]
     layers = [_layer(group, view, columns, rows) for group in groups]
     if hidden != "show":
@@ -95,7 +96,7 @@ def draw(
 
 def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:
     starts, ends = before_the_eye(to_camera(view, group.starts), to_camera(view, group.ends))
-    a, b = within(*(to_pixels(view, points, columns, rows) for points in (starts, ends)), columns, rows)
+    a, b = within(to_pixels(view, starts, columns, rows), to_pixels(view, ends, columns, rows), columns, rows)
     return Layer(group.name, group.color, a, b, np.zeros(len(a), bool))
 
 

@@ -90,9 +90,9 @@ programs: $(UV)
 tools: $(UV)
 	@$(UV) sync --quiet --inexact
 
-# npm ci leaves this file; it is as old as what it installed.
+# npm leaves this file. It is not `npm ci`, which refuses where the lock file lacks a package for another platform.
 modules: $(EXTENSION)/node_modules/.package-lock.json
 
 $(EXTENSION)/node_modules/.package-lock.json: $(EXTENSION)/package-lock.json
-	cd $(EXTENSION) && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	cd $(EXTENSION) && npm install --ignore-scripts --no-save --no-audit --no-fund --loglevel=error
 	@touch $@

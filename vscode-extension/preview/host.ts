@@ -50,6 +50,7 @@ export interface Rendered {
 
 /** What a pixel shows. */
 export interface Hit {
+  /** The version of the text that the places are of. */
   version: number;
   range: Place;
   solidRange: Place;

@@ -387,7 +387,7 @@ export class Preview implements Events {
     const parts = shown.flatMap(({ answer, optics }) =>
       answer === null ? [] : `${optics} ${answer.width} × ${answer.height} in ${answer.seconds.toFixed(2)} s`,
     );
-    const flat = shown.some(({ answer }) => answer?.bent === false);
+    const flat = this.exposures.mirage.answer?.bent === false;
     return parts.join("   ") + (flat ? "   no MIRAGE in the scene: both are the same" : "");
   }
 }

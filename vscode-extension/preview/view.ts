@@ -72,13 +72,13 @@ export class View {
     this.whole.addEventListener("change", () => actions.wholeSize(this.whole.checked));
     const label = element("label", "m3d-whole");
     label.title = "Render at the scene's own size, however large the pane is";
-    label.append(this.whole, "Full size");
+    label.append(this.whole, "Full");
     const files = element("div", "m3d-group m3d-right");
     this.pin = button("Pin", "Keep this scene while others are edited", () =>
       actions.pin(this.pin.getAttribute("aria-pressed") !== "true"),
     );
     files.append(
-      button("Save…", "Save the picture as PNG, EXR or TIFF", () => actions.save()),
+      button("Save", "Save the picture as PNG, EXR or TIFF", () => actions.save()),
       this.pin,
     );
     toolbar.append(group, zoom, label, files);

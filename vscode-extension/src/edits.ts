@@ -1,5 +1,6 @@
 /**
- * Follows places through edits, so that what was told of an older version of a text is found in the one of now.
+ * Follows places through edits, so that what was told of an older version of a text is found in the one of now. The
+ * server's answers hold for the text as it stands; this is for what is kept of them while one types on.
  *
  * A place within what was replaced goes to its beginning. Positions are lines and characters, from 0.
  */

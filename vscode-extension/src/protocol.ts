@@ -1,7 +1,7 @@
 /**
  * What the language server answers beyond LSP: docs/protocol.md, in types.
  *
- * Ranges are LSP's; `convert.ts` makes those of VS Code of them.
+ * Ranges are LSP's. They hold for the text as it stands when the answer comes, whatever version it was made from.
  */
 
 import { NotificationType, RequestType } from "vscode-languageclient/node";

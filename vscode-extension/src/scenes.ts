@@ -65,6 +65,12 @@ export class Scenes implements vscode.Disposable {
     return this.states.get(uri.toString());
   }
 
+  /** The version that a scene's text has now: that of the places in an answer that comes now. */
+  versionOf(uri: vscode.Uri): number {
+    const key = uri.toString();
+    return vscode.workspace.textDocuments.find((document) => document.uri.toString() === key)?.version ?? 0;
+  }
+
   /** The range of now for one of an older version. */
   rangeNow(uri: vscode.Uri, version: number, range: Span): vscode.Range {
     const edits = this.editsOf(uri);

@@ -26,8 +26,6 @@ export class PreviewPanel {
   readonly onDidChangePinned = this.pinnedChanged.event;
   /** The questions of each kind of light that are under way, the oldest first: tiles are that one's. */
   private readonly renderings: Record<Optics, number[]> = { mirage: [], straight: [] };
-  /** The versions that the last pictures are of. */
-  private readonly versions: Partial<Record<Optics, number>> = {};
   private isReady = false;
   private isPinned = false;
 
@@ -215,18 +213,10 @@ export class PreviewPanel {
   private async render({ id, request }: Extract<FromPage, { type: "render" }>): Promise<Rendered> {
     const { optics } = request;
     const renderings = this.renderings[optics];
-    const { uri } = this;
     renderings.push(id);
     try {
-      const rendered = await this.server.request(protocol.render, {
-        textDocument: { uri },
-        preview: this.id(optics),
-        ...request,
-      });
-      if (rendered.status === "done" && uri === this.uri) {
-        this.versions[optics] = rendered.version;
-      }
-      return rendered;
+      const textDocument = { uri: this.uri };
+      return await this.server.request(protocol.render, { textDocument, preview: this.id(optics), ...request });
     } finally {
       renderings.splice(renderings.indexOf(id), 1);
     }
@@ -237,20 +227,17 @@ export class PreviewPanel {
     if (pick === null) {
       return null;
     }
-    const { start } = this.scenes.rangeNow(this.document.uri, pick.version, pick.range);
-    return { ...pick, line: start.line + 1 };
+    return { ...pick, version: this.document.version, line: pick.range.start.line + 1 };
   }
 
   private async mask({ optics }: Extract<FromPage, { type: "mask" }>): Promise<Mask | null> {
-    const version = this.versions[optics];
     const editor = [vscode.window.activeTextEditor, ...vscode.window.visibleTextEditors].find(
       (editor) => editor?.document === this.document,
     );
-    if (version === undefined || editor === undefined || !this.settings.highlightCursor) {
+    if (editor === undefined || !this.settings.highlightCursor) {
       return null;
     }
-    const position = this.scenes.editsOf(this.document.uri).toThen(version, editor.selection.active);
-    const { line, character } = position;
+    const { line, character } = editor.selection.active;
     return this.server.request(protocol.mask, { preview: this.id(optics), position: { line, character } });
   }
 

@@ -18,6 +18,7 @@ const SCHEME = "m3d-dump";
 const STALE = "*** The scene has errors: this is what its last version without any resolves to. ***";
 
 interface Shown {
+  /** The version whose places the ranges are. */
   version: number;
   /** For each line of the document what it tells of. */
   ranges: (Span | null)[];
@@ -73,7 +74,8 @@ export class DumpView implements vscode.Disposable, vscode.TextDocumentContentPr
       this.shown.delete(uri.toString());
       return "There is no dump: the scene has had errors since it was opened.\n";
     }
-    const { version, stale, text, ranges } = dump;
+    const { stale, text, ranges } = dump;
+    const version = this.scenes.versionOf(scene);
     this.shown.set(uri.toString(), { version, ranges: stale ? [null, ...ranges] : ranges });
     return stale ? `${STALE}\n${text}` : text;
   }

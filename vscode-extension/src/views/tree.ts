@@ -29,6 +29,7 @@ export class TreeView implements vscode.Disposable, vscode.TreeDataProvider<Bran
   private roots: Branch[] = [];
   /** Every branch that has a place in the text. */
   private placed: Branch[] = [];
+  /** The version whose places the tree has. */
   private version = 0;
   private scene: vscode.Uri | undefined;
   private asked = 0;
@@ -97,7 +98,7 @@ export class TreeView implements vscode.Disposable, vscode.TreeDataProvider<Bran
       return;
     }
     this.scene = document.uri;
-    this.version = tree.version;
+    this.version = this.scenes.versionOf(document.uri);
     this.placed = [];
     this.roots = tree.nodes.map((node) => this.branch(node, undefined));
     this.view.message = tree.stale ? "The scene has errors: this is its last version without any." : "";

@@ -41,6 +41,10 @@ export class Workbench {
   }
 
   async screenshot(name: string): Promise<void> {
+    // Away from what says more when pointed at.
+    if (!/hover|failed/.test(name)) {
+      await this.page.mouse.move(700, 12);
+    }
     await this.page.screenshot({ path: path.join(OUT, "screenshots", `${name}.png`) });
   }
 
@@ -89,7 +93,8 @@ export class Workbench {
   async focus(name: string): Promise<void> {
     await this.page.locator(`.tab[data-resource-name="${name}"]`).first().click();
     await this.page.keyboard.press("Control+1");
-    await this.editor(name).locator(".native-edit-context:focus, textarea:focus").first().waitFor({ state: "attached" });
+    const input = this.editor(name).locator(".native-edit-context:focus, textarea:focus").first();
+    await input.waitFor({ state: "attached" });
   }
 
   /** Puts the cursor before the first such text in the scene as it is on disk. */

@@ -204,7 +204,7 @@ test("everything has a name, and can be reached with the keyboard", () => {
 test("buttons do what they say", async () => {
   scene();
   await rendered();
-  click("Save…");
+  click("Save");
   click("Pin");
   host.events?.options({ pinned: true });
   expect(root.querySelector("button[aria-label=Pin]")?.getAttribute("aria-pressed")).toBe("true");

@@ -106,6 +106,6 @@ def _title(comment: str) -> str | None:
     if _DIRECTIVE.search(comment):
         return None
     lines = (_FRAME.sub("", line) for line in comment.splitlines())
-    text = " ".join(next(([line] for line in lines if line), []))
-    text = " ".join(_SENTENCE_END.split(text, maxsplit=1)[0].split()).rstrip(".:;")
+    line = next((line for line in lines if line), "")
+    text = " ".join(_SENTENCE_END.split(line, maxsplit=1)[0].split()).rstrip(".:;")
     return text if len(text) <= LONGEST_TITLE else text[: LONGEST_TITLE - 1].rstrip() + "…"

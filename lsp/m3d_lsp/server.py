@@ -7,7 +7,7 @@ import inspect
 import logging
 from collections.abc import Awaitable, Callable
 from importlib.metadata import version
-from typing import Any
+from typing import Any, cast
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
@@ -143,7 +143,7 @@ def _uri(params: Any) -> str:
     """The document that a request is about; one about an item that the server gave names the item's, and one about an
     action has it in its data."""
     if isinstance(params, types.CodeAction):
-        return params.data["uri"]
+        return str(cast("dict[str, Any]", params.data)["uri"])
     return (params.text_document if hasattr(params, "text_document") else params.item).uri
 
 

@@ -11,6 +11,7 @@ from . import (
     references,
     rename,
     selection,
+    semantic_tokens,
     symbols,
     workspace_symbols,
 )
@@ -26,6 +27,7 @@ MODULES = (
     references,
     rename,
     selection,
+    semantic_tokens,
     symbols,
     workspace_symbols,
 )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 from lsprotocol import types
 
 from m3dc import ast
@@ -14,7 +15,7 @@ from m3dc import ast
 from ..comments import comments
 from ..registry import request
 from ..snapshot import Snapshot
-from ..text import Span
+from ..text import Span, Text
 
 
 @request(types.TEXT_DOCUMENT_FOLDING_RANGE)
@@ -23,17 +24,22 @@ def folding(snapshot: Snapshot, params: types.FoldingRangeParams) -> list[types.
     del params
     text = snapshot.text
     found: dict[int, types.FoldingRange] = {}
-    for start, end in _blocks(snapshot):
-        first, last = text.line_of(start), text.line_of(end - 1)
-        if text.data[end : text.line_end(last)].strip():
+    for _, end, first, last in _with_lines(text, list(_blocks(snapshot))):
+        if last > first and text.data[end : text.line_end(last)].strip():
             last -= 1
         if last > first:
             found.setdefault(first, types.FoldingRange(first, last))
-    for start, end in _comments(snapshot):
-        first, last = text.line_of(start), text.line_of(end - 1)
+    for _, _, first, last in _with_lines(text, list(_comments(snapshot))):
         if last > first:
             found.setdefault(first, types.FoldingRange(first, last, kind=types.FoldingRangeKind.Comment))
     return [found[line] for line in sorted(found)]
+
+
+def _with_lines(text: Text, spans: list[Span]) -> Iterator[tuple[int, int, int, int]]:
+    """Each range with the lines on which it begins and ends."""
+    places = np.array(spans, np.int64).reshape(-1, 2)
+    lines = text.positions(places - [0, 1])[0]
+    yield from (tuple(row) for row in np.concatenate([places, lines], axis=1).tolist())
 
 
 def _blocks(snapshot: Snapshot) -> Iterator[Span]:

@@ -93,9 +93,13 @@ class Scene(NamedTuple):
         return self.text[start:end]
 
 
+OWN_NOTIFICATIONS = ("m3d/analysed", "m3d/preview/tile")
+REFRESHES = (types.WORKSPACE_CODE_LENS_REFRESH, types.WORKSPACE_INLAY_HINT_REFRESH)
+
+
 class SceneClient(LanguageClient):
-    """A client that keeps what the server sends unasked: the last diagnostics of each document, and all notifications
-    of our own, by method."""
+    """A client that keeps what the server sends unasked: the last diagnostics of each document, and by their method all
+    notifications of our own and all requests to ask for something anew."""
 
     def __init__(self) -> None:
         super().__init__(converter_factory=default_converter)
@@ -105,7 +109,7 @@ class SceneClient(LanguageClient):
         register_lsp_features(self)
         # In place of what pytest_lsp has for it, which forgets versions.
         self.protocol.fm.features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._publish
-        for method in ("m3d/analysed", "m3d/preview/tile"):
+        for method in (*OWN_NOTIFICATIONS, *REFRESHES):
             self.feature(method)(functools.partial(self._notify, method))
 
     def _publish(self, params: types.PublishDiagnosticsParams) -> None:
@@ -155,6 +159,14 @@ class Editor:
         text, places = read_marks(marked)
         self.change(scene, types.TextDocumentContentChangeWholeDocument(text))
         return Scene(scene.uri, text, places)
+
+    async def set(self, **settings: Any) -> None:
+        """Change settings; done when the server wants what depends on them to be asked for anew."""
+        asked = self.client.notified.setdefault(types.WORKSPACE_CODE_LENS_REFRESH, [])
+        before = len(asked)
+        self.client.set_configuration({"m3d": settings})
+        self.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(None))
+        await self.client.wait_until(lambda: len(asked) > before or None)
 
     async def diagnostics(self, scene: Scene) -> list[types.Diagnostic]:
         """The diagnostics of the newest version, which the server sends unasked."""

@@ -1,12 +1,15 @@
 """What the server answers, a module a feature. Adding one is a module, and its name below."""
 
 from . import (
+    code_lens,
+    colour,
     configuration,
     definition,
     diagnostics,
     folding,
     hierarchy,
     hover,
+    inline_values,
     links,
     references,
     rename,
@@ -17,12 +20,15 @@ from . import (
 )
 
 MODULES = (
+    code_lens,
+    colour,
     configuration,
     definition,
     diagnostics,
     folding,
     hierarchy,
     hover,
+    inline_values,
     links,
     references,
     rename,

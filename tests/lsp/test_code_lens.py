@@ -1,0 +1,46 @@
+"""Lenses above a scene's blocks and variables."""
+
+from __future__ import annotations
+
+import pytest
+from editor import Editor, Scene
+from lsprotocol import types
+
+pytestmark = pytest.mark.asyncio(loop_scope="session")
+
+SCENE = """\
+VARIABLES { NUMBER size, spare; }
+size = 2 size = 3
+SCENE { }
+SOLID { SPHERE { RADIUS size } }
+"""
+
+
+async def lenses(editor: Editor, scene: Scene) -> list[types.CodeLens]:
+    return list(await editor.client.text_document_code_lens_async(types.CodeLensParams(scene.identifier)))
+
+
+async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
+    scene = editor.open(SCENE)
+    found = await lenses(editor, scene)
+    assert [(lens.range.start.line, lens.command.title, lens.command.command) for lens in found if lens.command] == [
+        (0, "size: used once, set twice", "m3d.showReferences"),
+        (0, "spare: used never", "m3d.showReferences"),
+        (2, "Preview", "m3d.preview"),
+        (2, "Render", "m3d.render"),
+        (2, "Dump", "m3d.dump"),
+        (3, "Dump", "m3d.dump"),
+    ]
+    assert found[0].command is not None
+    uri, position, locations = found[0].command.arguments or ()
+    assert uri == scene.uri
+    assert (position["line"], position["character"]) == (0, 19)
+    assert [place["range"]["start"]["line"] for place in locations] == [1, 1, 3]
+
+
+async def test_they_can_be_switched_off(editor: Editor) -> None:
+    scene = editor.open(SCENE)
+    await editor.set(codeLens={"enabled": False})
+    assert await lenses(editor, scene) == []
+    await editor.set()
+    assert await lenses(editor, scene)

@@ -42,8 +42,8 @@ def facts(statement: Statement) -> list[str]:
     bounds = [statement.bounds] if statement.bounds else [argument.bounds for argument in statement.arguments]
     found += dict.fromkeys(allowed(bound) for bound in bounds if bound)
     # What is often wanted of any argument of a kind need not be said of each.
-    known = [label for argument in statement.arguments for label in argument.often if len(statement.arguments) == 1]
-    if statement.often and not statement.often.keys() <= set(known):
+    known = set(statement.arguments[0].often) if len(statement.arguments) == 1 else set[str]()
+    if not set(statement.often) <= known:
         values = ", ".join(f"`{written(value)}` {label}" for label, value in statement.often.items())
         found.append(f"Often: {values}")
     return found

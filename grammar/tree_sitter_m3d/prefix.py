@@ -134,9 +134,9 @@ class _Reader:
             return True
         if token.terminal != "IDENTIFIER" or self._opened:
             return False
-        # At top level a name is the target of an assignment, unless it follows `=` or the keyword of a block.
+        # At top level a name is the target of an assignment, unless it goes on with what was begun.
         last = self._member[-1].terminal if self._member else ""
-        return last != "EQUAL" and last not in LANGUAGE.keywords
+        return last not in ("EQUAL", "LANGLE", "COMMA") and last not in LANGUAGE.keywords
 
     def _starts_anew(self, token: Token) -> bool:
         """Whether a token is what stands at the top level alone, so that what is open must have been left open."""

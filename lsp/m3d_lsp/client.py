@@ -16,7 +16,7 @@ class Client:
     signature_markdown: bool = False
     images: bool = False
     snippets: bool = False
-    label_details: bool = False
+    insert_replace: bool = False
 
     @classmethod
     def of(cls, capabilities: types.ClientCapabilities) -> Client:
@@ -31,7 +31,7 @@ class Client:
             signature_markdown=bool(signature and _markdown(signature.documentation_format)),
             images=bool(general and general.markdown and general.markdown.parser),
             snippets=bool(item and item.snippet_support),
-            label_details=bool(item and item.label_details_support),
+            insert_replace=bool(item and item.insert_replace_support),
         )
 
 

@@ -23,6 +23,7 @@ from .text import Span
 # types of variables.
 _ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b[A-Za-z]\w*\s*=")
 _LONG_TABLE = re.compile(r"[A-Z]+\s*\{[^{}A-DF-Za-df-z]{500,}\}")
+_REST = re.compile(rb"[A-Za-z0-9_.]*")
 _WORD = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
 
 # How far back the beginning of the item is looked for.
@@ -66,6 +67,12 @@ def read(snapshot: Snapshot, offset: int) -> Cursor:
     block = _block(snapshot, prefix)
     entry = _entry(prefix, block)
     return Cursor(prefix, (start, offset), block, entry, _slot(prefix, entry))
+
+
+def word_end(snapshot: Snapshot, offset: int) -> int:
+    """Where the word ends that a byte is in."""
+    after = _REST.match(snapshot.text.data, offset)
+    return after.end() if after else offset
 
 
 def _in_comment(tree: Tree, offset: int) -> bool:
@@ -123,7 +130,7 @@ def _entry(prefix: Prefix, block: Block | None) -> Statement | Table | None:
     if block is None:
         return None
     innermost = prefix.opened[-1].keyword
-    if innermost in block.tables:
+    if innermost is not None and innermost in block.tables:
         return block.tables[innermost]
     return block.statements.get(prefix.member[0].text) if prefix.member else None
 

@@ -17,11 +17,11 @@ from .summary import number, vector
 
 
 class Row(NamedTuple):
-    """A row of a table: its number in the text, the values of the whole table, and which of its rows it is."""
+    """A row of a table: its number in the text, the values of the whole table, and its `place` among them."""
 
     number: int
     table: TableValue
-    index: int
+    place: int
 
 
 def row_at(here: Standing, offset: int) -> Row | None:
@@ -52,7 +52,7 @@ def facts(here: Standing, offset: int, *, images: bool) -> str:
     if row is None:
         return ""
     keyword = here.member.entry.keyword if here.member is not None else ""
-    values = row.table.rows[row.index]
+    values = row.table.rows[row.place]
     match keyword:
         case "VERTICES":
             return _vertex(here, row)
@@ -63,25 +63,25 @@ def facts(here: Standing, offset: int, *, images: bool) -> str:
         case "COLORS":
             start, end = (number(value) for value in values[:2])
             first, last = (shown(values[columns], images=images) for columns in (slice(2, 5), slice(5, 8)))
-            return f"Range {row.index + 1}: from {start}, {first}, to {end}, {last}"
+            return f"Range {row.place + 1}: from {start}, {first}, to {end}, {last}"
         case _:
             return ""
 
 
 def _vertex(here: Standing, row: Row) -> str:
-    values = row.table.rows[row.index]
-    name = f"Vertex **{row.index}** of {len(row.table.rows)}, counted from 0"
+    values = row.table.rows[row.place]
+    name = f"Vertex **{row.place}** of {len(row.table.rows)}, counted from 0"
     if len(row.table.head) == 2:
         columns = max(row.table.head[1], 1)
-        name = f"Row {row.index // columns}, column {row.index % columns} of the grid, counted from 0"
+        name = f"Row {row.place // columns}, column {row.place % columns} of the grid, counted from 0"
     scene = in_scene(here).points(values)
     return f"{name}: `{vector(values)}`" + ("" if np.array_equal(scene, values) else f"\n\nMoved to `{vector(scene)}`")
 
 
 def _facet(here: Standing, row: Row) -> str:
     vertices = here.innermost.tables.get("VERTICES")
-    lines = [f"Facet {row.index + 1} of {len(row.table.rows)}:\n"]
-    for corner in row.table.rows[row.index][:3].astype(int).tolist():
+    lines = [f"Facet {row.place + 1} of {len(row.table.rows)}:\n"]
+    for corner in row.table.rows[row.place][:3].astype(int).tolist():
         known = vertices is not None and 0 <= corner < len(vertices.rows)
         lines.append(f"- vertex {corner}: " + (f"`{vector(vertices.rows[corner])}`" if known and vertices else "none"))
     return "\n".join(lines)
@@ -100,8 +100,8 @@ def _profile(mirage: Record, row: Row, here: Standing) -> str:
     except SceneError:
         return ""
     rows = row.table.rows
-    parts = [f"{number(rows[row.index][1])} °C at {number(rows[row.index][0])} m"]
-    for name, low in (("Above", row.index), ("Below", row.index - 1)):
+    parts = [f"{number(rows[row.place][1])} °C at {number(rows[row.place][0])} m"]
+    for name, low in (("Above", row.place), ("Below", row.place - 1)):
         if not 0 <= low < len(rows) - 1:
             continue
         (z0, t0), (z1, t1) = rows[low].tolist(), rows[low + 1].tolist()

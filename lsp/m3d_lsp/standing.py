@@ -53,7 +53,7 @@ def standing(analysis: Analysis, offset: int) -> Standing | None:
         return None
     item, made = analysis.program[index], analysis.world.made[index]
     content, at = item.content, offset - item.start
-    if isinstance(content, tuple) and not isinstance(content, (program.Block, program.Assignment)):
+    if not isinstance(content, (program.Block, program.Assignment)):
         return None
     if content.body is None or at > content.span[1] or _record(made) is None:
         return None

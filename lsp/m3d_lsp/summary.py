@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from m3dc.transform import IDENTITY
 from m3dc.values import Record, Value
@@ -17,7 +17,7 @@ def number(value: float) -> str:
     return f"{value + 0.0:.6g}"
 
 
-def vector(value: Sequence[float]) -> str:
+def vector(value: Iterable[float]) -> str:
     """`< 1, 0, 0.5 >`"""
     return f"< {', '.join(number(component) for component in value)} >"
 

@@ -29,6 +29,7 @@ MEMBERS_OF_SOLID = {*LANGUAGE.blocks["SOLID"].members(), "RBRACE"}
         ("SOLID { POLYGONS { FACETS { 1 0 1", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "POLYGONS", "FACETS"], "1 0 1"),
         ("VARIABLES { NUMBER a; VECTOR v, ", {"IDENTIFIER"}, ["VARIABLES"], "VECTOR v ,"),
         ("a = ", {"NUMERAL", "IDENTIFIER", "LANGLE", "LBRACE"}, [], "a ="),
+        ("a = < b, c, ", {"NUMERAL", "IDENTIFIER"}, [], "a = < b , c ,"),
         ("a = 1 b", {"EQUAL"}, [], "b"),
         ("SOLID wheel a", {"EQUAL"}, [], "a"),
         ("ball = other { RADIUS", {"NUMERAL", "IDENTIFIER"}, ["=ball"], "RADIUS"),

@@ -3,6 +3,7 @@
 from . import (
     code_lens,
     colour,
+    completion,
     configuration,
     definition,
     diagnostics,
@@ -22,6 +23,7 @@ from . import (
 MODULES = (
     code_lens,
     colour,
+    completion,
     configuration,
     definition,
     diagnostics,

@@ -1,0 +1,272 @@
+"""Completion, `textDocument/completion`: exactly what may stand at the cursor, says the formal grammar.
+
+- keywords of the block, with what they do, and ready to be filled in; blocks with their usual statements
+- variables of the type that is wanted, with what they are worth
+- values that are often wanted: colours, directions, the default
+
+It works in text that is being typed: what is broken further up does not matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lsprotocol import types
+
+from m3dc import ast
+from m3dc.values import Value
+from tree_sitter_m3d.formal import END
+from tree_sitter_m3d.phrases import written
+from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement
+
+from .. import cursor, explain, snippets
+from ..cursor import Cursor
+from ..markdown import fenced, markup, shown
+from ..names import names
+from ..registry import request
+from ..snapshot import Snapshot
+from ..summary import value_text
+
+# The order in which kinds of proposals are listed.
+FIRST, SECOND, THIRD = "1", "2", "3"
+
+
+@request(
+    types.TEXT_DOCUMENT_COMPLETION,
+    types.CompletionOptions(trigger_characters=[" ", "<", ","], resolve_provider=False),
+    nothing=types.CompletionList(is_incomplete=False, items=[]),
+)
+def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.CompletionList:
+    """What may stand at the cursor."""
+    offset = snapshot.offset(params.position)
+    place = cursor.read(snapshot, offset)
+    typed = snapshot.text.data[place.word[0] : offset]
+    # A number that is being typed is complete as it is.
+    begins = typed[:1].isalpha() or not typed
+    items = list(_proposals(snapshot, place)) if begins and _is_asked_for(place, params.context) else []
+    insert, replace = snapshot.range(place.word), snapshot.range((place.word[0], cursor.word_end(snapshot, offset)))
+    for item in items:
+        text = item.insert_text or item.label
+        both = snapshot.client.insert_replace
+        item.text_edit = types.InsertReplaceEdit(text, insert, replace) if both else types.TextEdit(insert, text)
+        item.insert_text = None
+    return types.CompletionList(is_incomplete=False, items=items)
+
+
+def _is_asked_for(place: Cursor, context: types.CompletionContext | None) -> bool:
+    """Whether a space was typed where a value must follow; after any other, nobody asked for proposals."""
+    if context is None or context.trigger_character != " ":
+        return True
+    return place.last is not None and (place.last.terminal in LANGUAGE.keywords or place.last.terminal == "EQUAL")
+
+
+def _proposals(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
+    expected = place.prefix.expected
+    if "IDENTIFIER" in expected or "LANGLE" in expected or "NUMERAL" in expected:
+        yield from _values(snapshot, place)
+        yield from _variables(snapshot, place)
+    allowed = _members(place)
+    there = _there_already(snapshot, place)
+    for word in sorted((expected & LANGUAGE.keywords) - there):
+        if allowed is None or word in allowed:
+            yield _keyword(snapshot, place, word)
+
+
+# --- keywords -----------------------------------------------------------------------------------------------------
+
+
+def _members(place: Cursor) -> set[str] | None:
+    """What the body around the cursor may hold, where the grammar alone can not tell: what is assigned to a variable
+    depends on its type."""
+    inside = place.prefix.opened and place.prefix.opened[-1].target is not None
+    return set(place.block.members()) if inside and place.block is not None else None
+
+
+def _there_already(snapshot: Snapshot, place: Cursor) -> set[str]:
+    """The blocks around the cursor that a scene has once, and has."""
+    found: set[str] = set()
+    if not place.prefix.opened:
+        for top in snapshot.analysis.items:
+            if isinstance(top.item, (ast.Block, ast.Variables)):
+                found.add(top.item.keyword.text)
+    elif place.block is not None and place.block.keyword == "SCENE":
+        for top in snapshot.analysis.items:
+            if isinstance(top.item, ast.Block) and top.item.keyword.text == "SCENE" and top.item.body is not None:
+                found |= {item.keyword.text for item in top.item.body.items if isinstance(item, ast.Block)}
+    return {word for word in found if word == "VARIABLES" or LANGUAGE.blocks[word].once}
+
+
+def _keyword(snapshot: Snapshot, place: Cursor, word: str) -> types.CompletionItem:
+    client = snapshot.client
+    block = None if _declares(place) else place.block
+    said = explain.keyword(word, block.keyword if block else None)
+    snippet = word if _declares(place) else _snippet(word, block)
+    flag = snippet == word
+    item = types.CompletionItem(
+        word,
+        kind=_kind(word, block),
+        documentation=markup(said, markdown=client.completion_markdown) if said else None,
+        sort_text=_order(place, word) + word,
+    )
+    if client.snippets and not flag:
+        item.insert_text, item.insert_text_format = snippet, types.InsertTextFormat.Snippet
+    entry = block.statements.get(word) if block else None
+    if entry is not None:
+        item.detail = explain.form(entry)
+    return item
+
+
+def _declares(place: Cursor) -> bool:
+    """Whether the cursor is among declarations, where the keyword of a block is a type."""
+    return bool(place.prefix.opened) and place.prefix.opened[-1].keyword == "VARIABLES"
+
+
+def _snippet(word: str, block: Block | None) -> str:
+    if block is not None and word in block.statements:
+        return snippets.statement(block.statements[word], block)
+    if block is not None and word in block.tables:
+        return snippets.table(block.tables[word], block)
+    if word in LANGUAGE.blocks:
+        return snippets.of_block(LANGUAGE.blocks[word])
+    return snippets.variables() if word == "VARIABLES" else word
+
+
+def _kind(word: str, block: Block | None) -> types.CompletionItemKind:
+    if block is not None and word in block.statements:
+        flag = block.statements[word].is_flag
+        return types.CompletionItemKind.Keyword if flag else types.CompletionItemKind.Property
+    if block is not None and word in block.tables:
+        return types.CompletionItemKind.Struct
+    return types.CompletionItemKind.Class if word in LANGUAGE.blocks else types.CompletionItemKind.Keyword
+
+
+def _order(place: Cursor, word: str) -> str:
+    """What a block usually holds comes first, what a texture makes no use of last."""
+    if place.block is None:
+        return FIRST
+    if place.block.uses and word not in place.block.uses:
+        return THIRD
+    return FIRST if word in place.block.usual else SECOND
+
+
+# --- variables ----------------------------------------------------------------------------------------------------
+
+
+def _variables(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
+    wanted = _wanted_type(snapshot, place)
+    if "IDENTIFIER" not in place.prefix.expected or wanted is None:
+        return
+    known = names(snapshot.analysis)
+    start = place.word[0]
+    target = place.prefix.member[0].text if wanted and place.prefix.member else None
+    for name, declaration in known.declared().items():
+        if declaration.span[0] > start or (wanted and declaration.type != wanted) or name == target:
+            continue
+        value = known.value(name, start)
+        item = types.CompletionItem(
+            name,
+            kind=_variable_kind(value),
+            detail=declaration.type if value is None else f"{declaration.type} = {value_text(value)}",
+            sort_text=FIRST + name,
+        )
+        if not wanted and snapshot.client.snippets:
+            item.insert_text, item.insert_text_format = f"{name} = $0", types.InsertTextFormat.Snippet
+        yield item
+
+
+def _wanted_type(snapshot: Snapshot, place: Cursor) -> str | None:
+    """The type of variable that may stand at the cursor: '' for any, None for none."""
+    last = place.last
+    if _declares(place):
+        return None
+    if place.slot is not None:
+        return "VECTOR" if place.slot.argument.components and place.slot.component is None else "NUMBER"
+    if END in place.prefix.expected:
+        return ""
+    if last is None:
+        return None
+    target = place.prefix.member[0]
+    if target.terminal == "IDENTIFIER":
+        if any(token.terminal == "LANGLE" for token in place.prefix.member):
+            return "NUMBER"
+        return names(snapshot.analysis).type(target.text) or ""
+    if last.terminal in LANGUAGE.blocks and LANGUAGE.blocks[last.text].variable:
+        return last.text
+    return None
+
+
+def _variable_kind(value: Value | None) -> types.CompletionItemKind:
+    return types.CompletionItemKind.Constant if isinstance(value, (int, float)) else types.CompletionItemKind.Variable
+
+
+# --- values -------------------------------------------------------------------------------------------------------
+
+
+def _values(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
+    """Values that are often wanted, by what they mean, and the default; for an assignment, the form of its value."""
+    slot, entry = place.slot, place.entry
+    if slot is None:
+        yield from _assigned(snapshot, place)
+        return
+    if slot.component is not None:
+        return
+    often: dict[str, Default] = dict(entry.often if isinstance(entry, Statement) else slot.argument.often)
+    default = entry.default if isinstance(entry, Statement) and len(entry.arguments) == 1 else None
+    if default is not None and default not in often.values():
+        often["the default"] = default
+    for number, (label, value) in enumerate(often.items()):
+        yield _value(snapshot, slot.argument, label, value, number)
+    if slot.argument.components:
+        yield _form(snapshot, slot.argument)
+
+
+def _value(snapshot: Snapshot, argument: Argument, label: str, value: Default, number: int) -> types.CompletionItem:
+    text = written(value)
+    color = value if argument.kind == "color" and isinstance(value, tuple) else None
+    return types.CompletionItem(
+        label if argument.components else text,
+        kind=types.CompletionItemKind.Color if color else types.CompletionItemKind.Value,
+        detail=text if argument.components else label,
+        documentation=None if color is None else _swatch(snapshot, color),
+        insert_text=text,
+        filter_text=f"{label} {text}",
+        sort_text=f"{SECOND}{number:03}",
+    )
+
+
+def _swatch(snapshot: Snapshot, color: tuple[float, ...]) -> str | types.MarkupContent:
+    """The number of a colour: clients that show a swatch of their own look for it in plain text."""
+    if not snapshot.client.images:
+        return shown(color, images=False).strip("`")
+    return markup(f"{shown(color, images=True)}\n\n{fenced(written(color))}", markdown=True)
+
+
+def _form(snapshot: Snapshot, argument: Argument) -> types.CompletionItem:
+    """The vector to be filled in."""
+    form = f"< {', '.join(argument.components)} >"
+    item = types.CompletionItem(
+        form, kind=types.CompletionItemKind.Snippet, detail=argument.says, sort_text=THIRD, insert_text="< "
+    )
+    if snapshot.client.snippets:
+        item.insert_text, item.insert_text_format = snippets.vector((0.0, 0.0, 0.0)), types.InsertTextFormat.Snippet
+    return item
+
+
+def _assigned(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
+    """After `name =`: what a value of the variable's type looks like."""
+    if place.last is None or place.last.terminal != "EQUAL" or not snapshot.client.snippets:
+        return
+    type_ = names(snapshot.analysis).type(place.prefix.member[0].text) or ""
+    if type_ == "VECTOR":
+        yield _form(snapshot, LANGUAGE.kinds["point"])
+    elif type_ in LANGUAGE.blocks:
+        block = LANGUAGE.blocks[type_]
+        snippet = snippets.of_block(block).removeprefix(block.keyword).lstrip()
+        yield types.CompletionItem(
+            "{ ... }",
+            kind=types.CompletionItemKind.Snippet,
+            detail=f"the statements of a {type_}",
+            sort_text=THIRD,
+            insert_text=snippet,
+            insert_text_format=types.InsertTextFormat.Snippet,
+        )

@@ -1,0 +1,139 @@
+"""What is proposed at the cursor: what may stand there, and no more."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from editor import Editor, Scene
+from lsprotocol import types
+
+import m3dc
+from m3d_lsp import snippets
+from tree_sitter_m3d.formal import first_error
+from tree_sitter_m3d.table import LANGUAGE
+
+pytestmark = pytest.mark.asyncio(loop_scope="session")
+
+HEAD = """\
+VARIABLES { NUMBER little, big; VECTOR sand; SPHERE ball; SURFACE shiny; }
+little = 0.5
+sand = < 0.8, 0.7, 0.5 >
+"""
+
+
+async def complete(editor: Editor, scene: Scene, typed: str | None = None) -> list[types.CompletionItem]:
+    context = None
+    if typed is not None:
+        context = types.CompletionContext(types.CompletionTriggerKind.TriggerCharacter, typed)
+    params = types.CompletionParams(scene.identifier, scene.cursor, context=context)
+    answer = await editor.client.text_document_completion_async(params)
+    assert isinstance(answer, types.CompletionList)
+    return list(answer.items)
+
+
+async def check(editor: Editor, marked: str, *labels: str) -> None:
+    """Just these are proposed at the cursor, after HEAD."""
+    items = await complete(editor, editor.open(HEAD + marked))
+    assert sorted(item.label for item in items) == sorted(labels)
+
+
+def filled_in(item: types.CompletionItem, scene: Scene) -> str:
+    """The text of a scene with a proposal taken, the values in it as they are proposed."""
+    edit = item.text_edit
+    assert isinstance(edit, types.InsertReplaceEdit)
+    lines = scene.text.splitlines(keepends=True)
+    start, end = (sum(map(len, lines[: p.line])) + p.character for p in (edit.replace.start, edit.replace.end))
+    return scene.text[:start] + re.sub(r"\$\{\d+:([^}]*)\}|\$\d", r"\1", edit.new_text) + scene.text[end:]
+
+
+async def test_members_of_a_block(editor: Editor) -> None:
+    await check(editor, "SOLID { SPHERE { $0 } }", "CENTER", "RADIUS", "TRANSFORM")
+    await check(editor, "SOLID { SPHERE { RADIUS 1 $0 } }", "CENTER", "RADIUS", "TRANSFORM")
+    await check(editor, "SCENE { SKY { SUN { } $0 } }", *LANGUAGE.blocks["SKY"].members())
+    await check(editor, "SOLID { SPHERE { } SURFACE { TEXTURE { $0 } } }", *LANGUAGE.blocks["TEXTURE"].holds)
+
+
+async def test_what_is_assigned_depends_on_the_type(editor: Editor) -> None:
+    await check(editor, "ball = { $0 }", "CENTER", "RADIUS", "TRANSFORM")
+    await check(editor, "ball = $0", "{ ... }")
+    await check(editor, "sand = $0", "< x, y, z >")
+    await check(editor, "big = $0", "little")
+
+
+async def test_top_level(editor: Editor) -> None:
+    await check(editor, "$0", "SCENE", "SOLID", "LIGHT", "little", "big", "sand", "ball", "shiny")
+    await check(
+        editor, "SOLID { SPHERE { } }\nSCENE { }\n$0", "SOLID", "LIGHT", "little", "big", "sand", "ball", "shiny"
+    )
+
+
+async def test_declarations(editor: Editor) -> None:
+    items = await complete(editor, editor.open("VARIABLES { $0 }"))
+    assert {item.label for item in items} == set(LANGUAGE.types)
+    assert await complete(editor, editor.open("VARIABLES { NUMBER $0 }")) == []
+
+
+async def test_variables_of_the_type_that_is_wanted(editor: Editor) -> None:
+    await check(editor, "SOLID { SPHERE $0", "ball")
+    await check(editor, "SOLID { SPHERE { CENTER < 1, $0", "little", "big")
+    await check(editor, "SOLID { SPHERE { RADIUS $0", "little", "big", "1")
+    await check(editor, "SOLID { POLYGONS { VERTICES { 3 $0", "sand", "< x, y, z >")
+    await check(editor, "SCENE { VIEW { REGION 0, $0", "little", "big")
+
+
+async def test_values_that_are_often_wanted(editor: Editor) -> None:
+    scene = editor.open("SOLID { SPHERE { } SURFACE { COLOR whi$0te } }")
+    (white,) = [item for item in await complete(editor, scene) if item.label == "white"]
+    assert white.kind == types.CompletionItemKind.Color
+    assert "COLOR < 1, 1, 1 > }" in filled_in(white, scene)
+    await check(editor, "SOLID { SPHERE { } SURFACE { REFINDEX $0", "1.33", "1.5", "2.42", "1", "little", "big")
+
+
+async def test_half_typed_text(editor: Editor) -> None:
+    await check(editor, "SOLID { SPHERE { RAD$0", "CENTER", "RADIUS", "TRANSFORM")
+    await check(editor, "SOLID { SPHERE { RADIUS } SPHERE { RADIUS CENTER < 1 $0T }\n\nLIGHT { SOURCE { } }")
+    await check(editor, "SOLID { BALL { } SPHERE { $0 RADIUS } }", "CENTER", "RADIUS", "TRANSFORM")
+    await check(editor, "SOLID { SPHERE { \nSOLID { SPHERE { $0", "CENTER", "RADIUS", "TRANSFORM")
+
+
+async def test_nothing_where_nothing_is_wanted(editor: Editor) -> None:
+    await check(editor, "/* SOLID { $0 */")
+    await check(editor, "SOLID { SPHERE { RADIUS 1$0 } }")
+    assert await complete(editor, editor.open("SOLID { SPHERE { RADIUS 1 $0 } }"), " ") == []
+    assert await complete(editor, editor.open("SOLID { SPHERE { RADIUS $0 } }"), " ")
+
+
+async def test_a_taken_proposal_is_a_sentence(editor: Editor) -> None:
+    for text in (
+        "$0",
+        "SOLID { $0 }",
+        "SCENE { $0 }",
+        "SOLID { SPHERE { } SURFACE { TEXTURE { $0 } } }",
+        "ball = { $0 }",
+    ):
+        scene = editor.open(HEAD + text)
+        for item in await complete(editor, scene):
+            if item.kind not in (types.CompletionItemKind.Constant, types.CompletionItemKind.Variable):
+                assert first_error(filled_in(item, scene)) is None, item.label
+
+
+async def test_a_proposal_says_what_it_is(editor: Editor) -> None:
+    items = {
+        item.label: item for item in await complete(editor, editor.open(HEAD + "SOLID { SPHERE { $0 RADIUS sand } }"))
+    }
+    assert items["RADIUS"].detail == "RADIUS radius"
+    assert "Under a scaling transform" in items["RADIUS"].documentation.value
+    items = {item.label: item for item in await complete(editor, editor.open(HEAD + "sand = < little, $0"))}
+    assert items["little"].detail == "NUMBER = 0.5"
+
+
+@pytest.mark.parametrize("keyword", LANGUAGE.blocks)
+async def test_the_snippet_of_every_block_compiles(keyword: str) -> None:
+    text = re.sub(r"\$\{\d+:([^}]*)\}|\$\d", r"\1", snippets.of_block(LANGUAGE.blocks[keyword]))
+    while keyword not in LANGUAGE.top:
+        keyword = next(parent for parent in LANGUAGE.parents[keyword] if keyword in LANGUAGE.blocks[parent].holds)
+        primitive = "SPHERE { } " if keyword == "SOLID" else ""
+        text = f"{keyword} {{ {primitive}{text} }}"
+    errors = [found for found in m3dc.compile(text).diagnostics if found.severity == "error"]
+    assert not errors, text

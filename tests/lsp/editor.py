@@ -11,10 +11,13 @@ import functools
 import itertools
 import re
 from collections.abc import Callable, Sequence
+from types import SimpleNamespace
 from typing import Any, NamedTuple, TypeVar
 
+from cattrs import Converter
 from lsprotocol import types
 from pygls.protocol import default_converter
+from pygls.protocol.json_rpc import JsonRPCNotification, JsonRPCResponseMessage
 from pytest_lsp import LanguageClient
 from pytest_lsp.client import register_lsp_features
 
@@ -97,12 +100,27 @@ OWN_NOTIFICATIONS = ("m3d/analysed", "m3d/preview/tile")
 REFRESHES = (types.WORKSPACE_CODE_LENS_REFRESH, types.WORKSPACE_INLAY_HINT_REFRESH)
 
 
+def simple(value: Any) -> Any:
+    """JSON with attributes for keys. pygls makes a class for every object in it, which takes long for large answers."""
+    if isinstance(value, dict):
+        return SimpleNamespace(**{key: simple(each) for key, each in value.items()})
+    return [simple(each) for each in value] if isinstance(value, list) else value
+
+
+def converter() -> Converter:
+    """How messages become objects: as pygls does it, but for those that LSP does not know."""
+    made = default_converter()
+    for kind, part in ((JsonRPCResponseMessage, "result"), (JsonRPCNotification, "params")):
+        made.register_structure_hook(kind, lambda given, kind, part=part: kind(**given | {part: simple(given[part])}))
+    return made
+
+
 class SceneClient(LanguageClient):
     """A client that keeps what the server sends unasked: the last diagnostics of each document, and by their method all
     notifications of our own and all requests to ask for something anew."""
 
     def __init__(self) -> None:
-        super().__init__(converter_factory=default_converter)
+        super().__init__(converter_factory=converter)
         self.published: dict[str, types.PublishDiagnosticsParams] = {}
         self.notified: dict[str, list[Any]] = {}
         self._news = asyncio.Event()

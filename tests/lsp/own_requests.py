@@ -1,11 +1,13 @@
-"""What the tests of requests that LSP does not know share."""
+"""What the tests of requests that LSP does not know share, and servers of their own for tests that end them."""
 
 from __future__ import annotations
 
+import asyncio
 import sys
 from typing import Any
 
-from editor import Editor, Scene, position
+import pytest_lsp
+from editor import Editor, Scene, SceneClient, position
 from lsprotocol import types
 
 COMMAND = [sys.executable, "-m", "m3d_lsp"]
@@ -25,3 +27,24 @@ def edit(editor: Editor, scene: Scene, old: str, new: str) -> Scene:
     range_ = types.Range(position(scene.text, start), position(scene.text, start + len(old)))
     editor.change(scene, types.TextDocumentContentChangePartial(range_, new))
     return scene._replace(text=scene.text.replace(old, new))
+
+
+async def start_server(
+    like: str = "visual_studio_code", encoding: str = "utf-32", *options: str
+) -> tuple[SceneClient, types.ServerCapabilities]:
+    """A server of its own, whose client can do what an editor can (a name of pytest-lsp's); and what it can do."""
+    client = SceneClient()
+    await client.start_io(*COMMAND, *options)
+    capabilities = pytest_lsp.client_capabilities(like)
+    if capabilities.general is None:
+        capabilities.general = types.GeneralClientCapabilities()
+    capabilities.general.position_encodings = [types.PositionEncodingKind(encoding)]
+    params = types.InitializeParams(capabilities=capabilities, root_uri="file:///scenes")
+    result = await client.initialize_session(params)
+    return client, result.capabilities
+
+
+def process_of(client: SceneClient) -> asyncio.subprocess.Process:
+    """The server that a client has started."""
+    assert client._server is not None
+    return client._server

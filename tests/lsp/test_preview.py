@@ -6,7 +6,6 @@ import asyncio
 import base64
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -14,11 +13,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-import pytest_lsp
-from editor import Editor, Scene, SceneClient
+from editor import Editor, Scene
 from lsprotocol import types
 from numpy.typing import NDArray
-from own_requests import COMMAND, edit, to_range
+from own_requests import edit, process_of, start_server, to_range
 from pygls.exceptions import JsonRpcInvalidParams
 
 import m3d_render
@@ -342,18 +340,10 @@ def alive(process: int) -> bool:
         return False
 
 
-async def start_server() -> tuple[SceneClient, subprocess.Popen[bytes]]:
-    """A server of its own for a test that ends it."""
-    client = SceneClient()
-    await client.start_io(*COMMAND)
-    capabilities = pytest_lsp.client_capabilities("visual_studio_code")
-    await client.initialize_session(types.InitializeParams(capabilities=capabilities, root_uri="file:///scenes"))
-    return client, client._server  # pyright: ignore[reportPrivateUsage]
-
-
 @on_linux
 async def test_a_drawing_process_that_dies_is_replaced() -> None:
-    client, server = await start_server()
+    client, _ = await start_server()
+    server = process_of(client)
     try:
         editor = Editor(client)
         view = View(editor, editor.open(BALLS), "survivor")
@@ -378,7 +368,8 @@ async def test_a_drawing_process_that_dies_is_replaced() -> None:
 @on_linux
 @pytest.mark.parametrize("how", ["the client says so", "the client is gone", "the server is killed"])
 async def test_no_process_is_left_behind(how: str) -> None:
-    client, server = await start_server()
+    client, _ = await start_server()
+    server = process_of(client)
     editor = Editor(client)
     view = View(editor, editor.open(BALLS), "left")
     drawing = view.start("render", samples=ENDLESS)

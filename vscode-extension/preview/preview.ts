@@ -39,6 +39,7 @@ export class Preview implements Events {
   private missed = false;
   private reason: string | null = null;
   private divider = 0.5;
+  /** Runs until the text has rested. */
   private rest: ReturnType<typeof setTimeout> | undefined;
   private dwell: ReturnType<typeof setTimeout> | undefined;
   private pointer: { at: Point; optics: Optics; hit: string } | null = null;
@@ -104,6 +105,8 @@ export class Preview implements Events {
     // A text with errors has no picture of its own; the last good one is asked for only if it is not there.
     if (scene.render && (first || !scene.errors)) {
       this.render(first ? "full" : "draft");
+    } else if (this.rest !== undefined) {
+      this.whenRested();
     }
     this.refresh();
   }
@@ -256,7 +259,7 @@ export class Preview implements Events {
   }
 
   private render(quality: Quality, exposures = this.shown()): void {
-    clearTimeout(this.rest);
+    this.stopResting();
     this.missed = !this.isVisible;
     if (this.scene_ === null || !this.isVisible || this.reason !== null) {
       return;
@@ -265,8 +268,19 @@ export class Preview implements Events {
       exposure.request(quality, this.limits(exposure, quality));
     }
     if (quality === "draft") {
-      this.rest = setTimeout(() => this.render("full"), REST);
+      this.whenRested();
     }
+  }
+
+  /** Makes a full picture once nothing has changed for a while. */
+  private whenRested(): void {
+    this.stopResting();
+    this.rest = setTimeout(() => this.render("full"), REST);
+  }
+
+  private stopResting(): void {
+    clearTimeout(this.rest);
+    this.rest = undefined;
   }
 
   private limits(exposure: Exposure, quality: Quality): Limits {
@@ -293,8 +307,7 @@ export class Preview implements Events {
     this.viewport.setPane(clientWidth, clientHeight);
     this.stage.resize(clientWidth, clientHeight, devicePixelRatio);
     if (grown && this.options_.resolution === "pane") {
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.render("full"), REST);
+      this.whenRested();
     }
     this.refresh(true);
   }

@@ -112,14 +112,20 @@ step("a variable is renamed wherever it stands", async () => {
 });
 
 step("a scene is laid out", async () => {
+  await workbench.openScene(BALLS);
   await workbench.goTo(BALLS, "ball = {");
   await workbench.page.keyboard.type("      ");
   await workbench.command("M3D: Format Scene");
+  const lines = workbench.editor(BALLS).locator(".view-line");
+  await workbench.eventually("the line begins at the margin", async () =>
+    (await lines.allTextContents()).some((line) => /^ball\s=/.test(line)),
+  );
   await workbench.save();
   assert.match(workbench.read(BALLS), /^ball = \{ CENTER < -2, 0, 1 > \}$/m);
 });
 
 step("a colour is picked", async () => {
+  await workbench.openScene(BALLS);
   await workbench.goTo(BALLS, "yellow = <");
   const line = workbench.find(BALLS, "yellow = <").line;
   await workbench.editor(BALLS).locator(".colorpicker-color-decoration").first().waitFor();
@@ -221,6 +227,7 @@ step("both kinds of light are shown under a slider", async () => {
 });
 
 step("the dump opens beside the scene and follows the cursor", async () => {
+  await workbench.openScene(SCENE);
   await workbench.goTo(SCENE, "RECTANGLE {");
   await workbench.command("M3D: Open Dump to the Side");
   const dump = workbench.editor("m3d-dump");
@@ -247,7 +254,12 @@ step("a scene is compiled by its task", async () => {
 
 step("it is seen in high contrast", async () => {
   await workbench.page.emulateMedia({ forcedColors: "active", colorScheme: "dark" });
-  await workbench.preview.locator("body.vscode-high-contrast").waitFor();
+  const backgrounds = new Set<string>();
+  for (const name of ["Mirage", "Straight", "Both"]) {
+    const button = workbench.preview.getByRole("button", { name });
+    backgrounds.add(await button.evaluate((element) => getComputedStyle(element).backgroundColor));
+  }
+  assert.equal(backgrounds.size, 2, "the chosen light looks like the others");
   await workbench.screenshot("high-contrast");
   await workbench.page.emulateMedia({ forcedColors: "none", colorScheme: "light" });
 });

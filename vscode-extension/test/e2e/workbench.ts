@@ -41,10 +41,6 @@ export class Workbench {
   }
 
   async screenshot(name: string): Promise<void> {
-    // Away from what says more when pointed at.
-    if (!/hover|failed/.test(name)) {
-      await this.page.mouse.move(700, 12);
-    }
     await this.page.screenshot({ path: path.join(OUT, "screenshots", `${name}.png`) });
   }
 
@@ -95,6 +91,7 @@ export class Workbench {
     await this.page.keyboard.press("Control+1");
     const input = this.editor(name).locator(".native-edit-context:focus, textarea:focus").first();
     await input.waitFor({ state: "attached" });
+    await this.page.mouse.move(700, 12);
   }
 
   /** Puts the cursor before the first such text in the scene as it is on disk. */

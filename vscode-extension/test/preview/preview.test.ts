@@ -88,6 +88,19 @@ test("while one types there are small pictures, and a full one when the text has
   expect(host.asked[3]?.request.maxWidth).toBe(200);
 });
 
+test("what is typed in error puts the full picture off, too", async () => {
+  scene();
+  await rendered();
+  scene({ version: 2 });
+  await rendered(2);
+  vi.advanceTimersByTime(300);
+  scene({ version: 3, errors: true });
+  vi.advanceTimersByTime(399);
+  expect(host.asked.length).toBe(2);
+  vi.advanceTimersByTime(1);
+  expect(host.asked[2]?.request.maxWidth).toBe(200);
+});
+
 test("nothing is rendered for a text with errors, and the picture says that it is stale", async () => {
   scene();
   await rendered();

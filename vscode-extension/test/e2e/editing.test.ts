@@ -83,6 +83,7 @@ step("a keyword tells what it means", async () => {
 step("a statement is completed", async () => {
   await workbench.goTo(SCENE, "LOGSCALE 15");
   await workbench.page.keyboard.type("SHAD");
+  await workbench.page.keyboard.press("Control+Space");
   const row = workbench.page.locator('.suggest-widget.visible .monaco-list-row[aria-label^="SHADOWS"]').first();
   await row.waitFor();
   await workbench.screenshot("completion");
@@ -129,7 +130,7 @@ step("a colour is picked", async () => {
   await workbench.goTo(BALLS, "yellow = <");
   const line = workbench.find(BALLS, "yellow = <").line;
   await workbench.editor(BALLS).locator(".colorpicker-color-decoration").first().waitFor();
-  const row = workbench.editor(BALLS).locator(".view-line", { hasText: /yellow\s=\s</ });
+  const row = workbench.editor(BALLS).locator(".view-line", { hasText: /yellow\s=/ });
   await row.locator(".colorpicker-color-decoration").first().click();
   const box = workbench.page.locator(".colorpicker-widget .saturation-box").first();
   await box.waitFor();

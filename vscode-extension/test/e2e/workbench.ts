@@ -75,6 +75,10 @@ export class Workbench {
   // --- editors -------------------------------------------------------------------------------------------------
 
   async openScene(name: string): Promise<Locator> {
+    if ((await this.page.locator(`.tab[data-resource-name="${name}"]`).count()) > 0) {
+      await this.focus(name);
+      return this.editor(name);
+    }
     await this.page.locator(`.explorer-folders-view .monaco-list-row[aria-label*="${name}"]`).dblclick();
     const editor = this.editor(name);
     await editor.waitFor();

@@ -50,16 +50,17 @@ class Item(NamedTuple):
 
 
 class Layers(NamedTuple):
-    """The atoms of a scene in order, and its top-level items."""
+    """The atoms of a scene, or a part of it, in order, and its top-level items."""
 
     atoms: list[Atom]
     items: tuple[Item, ...]
 
 
-def read(data: bytes, root: Node) -> Layers:
-    """The atoms and items of a tree without errors. Raises FormatError where it is too deep."""
+def read(data: bytes, nodes: list[Node]) -> Layers:
+    """The atoms and items of nodes of the top level that follow one another, without errors. Raises FormatError where
+    they are too deep."""
     reader = _Reader(data)
-    items = reader.items(root.children, 0)
+    items = reader.items(nodes, 0)
     return Layers(reader.atoms, items)
 
 

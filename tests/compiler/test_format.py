@@ -147,8 +147,34 @@ def test_text_with_syntax_errors_has_no_layout(text: bytes, place: int | None) -
         format(text)
     assert caught.value.message
     assert place is None or caught.value.span[0] == place
-    with pytest.raises(FormatError):
-        format_range(text, 1, 1)
+
+
+BROKEN = b"""\
+  x=1 /* one */
+SOLID{PLANE{}} SOLID { SPHERE{RADIUS < } }
+/* stays */   y=2 /* two */
+  /* between */
+   VECTOR{ }
+ SOLID { PLANE { }  }  /* stays */
+"""
+
+
+MENDED = b"""\
+x = 1 /* one */
+SOLID { PLANE { } } SOLID { SPHERE{RADIUS < } }
+/* stays */   y = 2 /* two */
+  /* between */
+   VECTOR{ }
+SOLID { PLANE { } }  /* stays */
+"""
+
+
+def test_items_beside_a_broken_one_are_laid_out() -> None:
+    text = BROKEN
+    for edit in reversed(format_range(BROKEN, 1, 99)):
+        text = text[: edit.span[0]] + edit.text.encode() + text[edit.span[1] :]
+    assert text == MENDED
+    assert [edit.text for edit in format_range(BROKEN, 3, 5)] == [" ", " "]
 
 
 def test_what_is_only_wrong_in_meaning_is_laid_out() -> None:

@@ -181,6 +181,7 @@ def test_a_range_keeps_tokens_and_comments(data: bytes, start: int, more: int) -
 def test_broken_text_is_laid_out_or_refused(data: bytes, draw: st.DataObject) -> None:
     at = draw.draw(st.integers(0, len(data)))
     data = data[:at] + draw.draw(st.sampled_from([b"", b"{", b"}", b"<", b"/*", b"*/", b"1.", b"\0"])) + data[at + 1 :]
+    assert b"".join(made(data, format_range(data, 1, data.count(b"\n") + 1)).split()) == b"".join(data.split())
     try:
         out = format(data)
     except FormatError as error:

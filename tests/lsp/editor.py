@@ -97,7 +97,6 @@ class Scene(NamedTuple):
 
 
 OWN_NOTIFICATIONS = ("m3d/analysed", "m3d/preview/tile")
-REFRESHES = (types.WORKSPACE_CODE_LENS_REFRESH, types.WORKSPACE_INLAY_HINT_REFRESH)
 
 
 def simple(value: Any) -> Any:
@@ -116,8 +115,8 @@ def converter() -> Converter:
 
 
 class SceneClient(LanguageClient):
-    """A client that keeps what the server sends unasked: the last diagnostics of each document, and by their method all
-    notifications of our own and all requests to ask for something anew."""
+    """A client that keeps what the server sends unasked: the last diagnostics of each document, and all notifications
+    of our own, by method."""
 
     def __init__(self) -> None:
         super().__init__(converter_factory=converter)
@@ -127,8 +126,10 @@ class SceneClient(LanguageClient):
         register_lsp_features(self)
         # In place of what pytest_lsp has for it, which forgets versions.
         self.protocol.fm.features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._publish
-        for method in (*OWN_NOTIFICATIONS, *REFRESHES):
+        for method in OWN_NOTIFICATIONS:
             self.feature(method)(functools.partial(self._notify, method))
+        for kind in ("diagnostic", "inlayHint", "codeLens"):
+            self.protocol.fm.features[f"workspace/{kind}/refresh"] = _nothing
 
     def _publish(self, params: types.PublishDiagnosticsParams) -> None:
         self.published[params.uri] = params
@@ -146,6 +147,10 @@ class SceneClient(LanguageClient):
                 self._news.clear()
                 await self._news.wait()
         return found
+
+
+def _nothing(*_: object) -> None:
+    """A client that asks for nothing anew."""
 
 
 class Editor:
@@ -178,13 +183,18 @@ class Editor:
         self.change(scene, types.TextDocumentContentChangeWholeDocument(text))
         return Scene(scene.uri, text, places)
 
-    async def set(self, **settings: Any) -> None:
-        """Change settings; done when the server wants what depends on them to be asked for anew."""
-        asked = self.client.notified.setdefault(types.WORKSPACE_CODE_LENS_REFRESH, [])
-        before = len(asked)
-        self.client.set_configuration({"m3d": settings})
-        self.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(None))
-        await self.client.wait_until(lambda: len(asked) > before or None)
+    async def configure(self, scene: Scene, settings: dict[str, object]) -> None:
+        """Change the settings under `m3d`, and wait until the scene has been looked at with them."""
+        await self.client.wait_until(lambda: self._analysed(scene) or None)
+        before = len(self._analysed(scene))
+        self.client.set_configuration(settings, section="m3d")
+        self.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(settings=None))
+        await self.client.wait_until(lambda: len(self._analysed(scene)) > before or None)
+
+    def _analysed(self, scene: Scene) -> list[Any]:
+        """What the server said when it had looked at the newest version."""
+        news = self.client.notified.get("m3d/analysed", [])
+        return [each for each in news if (each.uri, each.version) == (scene.uri, self._open[scene.uri])]
 
     async def diagnostics(self, scene: Scene) -> list[types.Diagnostic]:
         """The diagnostics of the newest version, which the server sends unasked."""

@@ -40,7 +40,7 @@ async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
 
 async def test_they_can_be_switched_off(editor: Editor) -> None:
     scene = editor.open(SCENE)
-    await editor.set(codeLens={"enabled": False})
+    await editor.configure(scene, {"codeLens": {"enabled": False}})
     assert await lenses(editor, scene) == []
-    await editor.set()
+    await editor.configure(scene, {})
     assert await lenses(editor, scene)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pickle
 import struct
+from io import BufferedIOBase
 from threading import Lock
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, cast
 
 # Bytes of the pickle, and how many arrays follow; then the bytes of each.
 _HEADER = struct.Struct("<QQ")
@@ -44,7 +45,7 @@ class Channel:
         data = bytearray(length)
         view, done = memoryview(data), 0
         while done < length:
-            count = self._reader.readinto(view[done:])  # pyright: ignore[reportAttributeAccessIssue]
+            count = cast(BufferedIOBase, self._reader).readinto(view[done:])
             if not count:
                 raise EOFError
             done += count

@@ -178,15 +178,16 @@ class Previews:
                 answer.set_result(message.value)
             return
         job = self._jobs.get(message.number)
-        wanted = job is not None and not job.ended.done()
+        if job is not None and job.ended.done():
+            job = None
         match message:
             case Ended():
-                if wanted:
+                if job is not None:
                     job.ended.set_result(message)
                 else:
                     self._forget([message.number])
             case Tile() | Progress():
-                if wanted:
+                if job is not None:
                     job.hears(message)
                 if isinstance(message, Tile):
                     self._tell(Taken(message.number))

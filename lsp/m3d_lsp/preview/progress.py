@@ -1,5 +1,7 @@
 """Work-done progress (LSP): a bar in the editor for work that takes a while, and a button that ends it."""
 
+# pygls leaves the type of its progress's futures open.
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 import asyncio

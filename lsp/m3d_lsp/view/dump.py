@@ -47,7 +47,7 @@ def _dump(good: Good, offset: int | None) -> SimpleNamespace:
         shown[MOST_LINES] = Line("... and more, which m3dc --dump prints")
     # The scene's own blocks stand nowhere where they are not written.
     places: dict[Span | None, Any] = {None: None, (0, 0): None}
-    places |= {span: good.range(span) for span in {line.span for line in shown} if span not in places}
+    places |= {span: good.range(span) for line in shown if (span := line.span) is not None and span not in places}
     return SimpleNamespace(
         version=good.snapshot.version,
         stale=good.stale,

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from enum import IntEnum
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -93,9 +93,9 @@ def _shown(value: Any) -> str:
         case None:
             return "none"
         case bool() | np.bool_():
-            return "yes" if value else "no"
+            return "yes" if bool(value) else "no"
         case tuple() | np.ndarray():
-            parts = [_shown(part) for part in value]
+            parts = [_shown(part) for part in cast("Iterable[Any]", value)]
             if np.ndim(value) == 2:
                 return "; ".join(parts)
             return f"<{', '.join(parts)}>" if len(parts) == 3 else ", ".join(parts)

@@ -34,11 +34,11 @@ async def syntax_tree(server: Server, params: Any) -> SimpleNamespace:
 def _tree(snapshot: Snapshot) -> list[dict[str, Any]]:
     """The top-level nodes with what is in them; after `MOST_NODES` it is said that there are more."""
     cursor = snapshot.analysis.tree.walk()
-    root = _shown(snapshot, cursor)
-    path = [root]
+    root: dict[str, Any] = _shown(snapshot, cursor)
+    path: list[dict[str, Any]] = [root]
     for _ in range(MOST_NODES):
         if cursor.goto_first_child():
-            path[-1]["children"] = []
+            path[-1]["children"] = list[dict[str, Any]]()
         else:
             path.pop()
             while not cursor.goto_next_sibling():
@@ -48,7 +48,7 @@ def _tree(snapshot: Snapshot) -> list[dict[str, Any]]:
         node = _shown(snapshot, cursor)
         path[-1]["children"].append(node)
         path.append(node)
-    root["children"].append({"label": "... and more"})
+    root.setdefault("children", []).append({"label": "... and more"})
     return root["children"]
 
 

@@ -17,6 +17,7 @@ class Client:
     images: bool = False
     snippets: bool = False
     insert_replace: bool = False
+    label_offsets: bool = False
 
     @classmethod
     def of(cls, capabilities: types.ClientCapabilities) -> Client:
@@ -24,6 +25,7 @@ class Client:
         document = capabilities.text_document or types.TextDocumentClientCapabilities()
         item = document.completion.completion_item if document.completion else None
         signature = document.signature_help.signature_information if document.signature_help else None
+        parameter = signature.parameter_information if signature else None
         general = capabilities.general
         return cls(
             hover_markdown=bool(document.hover and _markdown(document.hover.content_format)),
@@ -31,6 +33,7 @@ class Client:
             signature_markdown=bool(signature and _markdown(signature.documentation_format)),
             images=bool(general and general.markdown and general.markdown.parser),
             snippets=bool(item and item.snippet_support),
+            label_offsets=bool(parameter and parameter.label_offset_support),
             insert_replace=bool(item and item.insert_replace_support),
         )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from m3dc import program
 from m3dc.evaluate import World
@@ -39,7 +40,7 @@ def row_at(here: Standing, offset: int) -> Row | None:
     return Row(row, value, index) if row >= 0 and 0 <= index < len(value.rows) else None
 
 
-def row_starts(table: program.Table, start: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+def row_starts(table: program.Table, start: int) -> NDArray[np.int64]:
     """Where the rows of a table begin, in bytes of the text, when its item begins at `start`."""
     if table.bulk is not None:
         return np.asarray(table.bulk.offsets).astype(np.int64) + (start - table.origin)

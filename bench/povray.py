@@ -11,7 +11,6 @@ a ray of the other. Colours are only alike: what counts is which surfaces are hi
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import re
 import shutil
 from collections.abc import Iterable, Iterator
@@ -238,8 +237,7 @@ def silhouette(ir: SceneIR) -> SceneIR:
     surfaces["texture_count"] = np.zeros_like(surfaces["texture_count"])
     tables["surfaces"] = surfaces
     black = (0.0, 0.0, 0.0)
-    scene = dataclasses.replace(
-        ir.scene,
+    scene = ir.scene._replace(
         shadows=False,
         log_scale=0.0,
         depth=1,
@@ -248,7 +246,7 @@ def silhouette(ir: SceneIR) -> SceneIR:
         haze=Haze(False, 0.0, black, 0.0),
         sky=None,
     )
-    return dataclasses.replace(ir, scene=scene, tables=tables)
+    return SceneIR(scene, tables, ir.source)
 
 
 def read_picture(path: Path) -> NDArray[np.uint8]:

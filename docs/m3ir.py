@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
+from types import UnionType
+from typing import NamedTuple, get_args
 
 from m3dc import ir
 from m3dc.m3ir import VERSION
@@ -36,9 +38,12 @@ follow one another: `first_...` is the first, `..._count` how many there are.
 """
 
 
+_ALIASES = {ir.Triple: "triple", Mapping[str, ir.Span]: "by keyword, a pair of bytes"}
+
+
 def page() -> str:
     """The whole page."""
-    parts = [INTRODUCTION, "## header: scene\n", *_dataclass(ir.Scene, "scene")]
+    parts = [INTRODUCTION, "## header: scene\n", *_members(ir.Scene, "scene")]
     for name, columns in ir.TABLES.items():
         parts += [f"\n## {name}\n", "| column | type | |", "|---|---|---|"]
         for column, (dtype, shape, says) in columns.items():
@@ -49,19 +54,20 @@ def page() -> str:
     return "\n".join(parts) + "\n"
 
 
-def _dataclass(kind: type, path: str) -> list[str]:
+def _members(kind: type[NamedTuple], path: str) -> list[str]:
     """One line a member, nested ones after a dot."""
     lines: list[str] = []
-    for member in dataclasses.fields(kind):
-        name = f"{path}.{member.name}"
-        optional = " or null" if "None" in str(member.type) else ""
-        nested = getattr(ir, str(member.type).split(" |")[0], None)
-        if dataclasses.is_dataclass(nested):
-            says = (nested.__doc__ or "").split("\n")[0]
+    for member, annotation in kind.__annotations__.items():
+        name = f"{path}.{member}"
+        one, optional = annotation, ""
+        if isinstance(annotation, UnionType):
+            one, optional = get_args(annotation)[0], " or null"
+        if hasattr(one, "_fields"):
+            says = (one.__doc__ or "").split("\n")[0]
             lines.append(f"- `{name}`{optional}: {says}")
-            lines += ["  " + line for line in _dataclass(nested, name)]
+            lines += ["  " + line for line in _members(one, name)]
         else:
-            lines.append(f"- `{name}`: {str(member.type).removesuffix(' | None').lower()}{optional}")
+            lines.append(f"- `{name}`: {_ALIASES.get(one) or one.__name__}{optional}")
     return lines
 
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Generator
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 @contextlib.contextmanager
@@ -33,7 +36,9 @@ def replacing(*targets: Path) -> Generator[list[Path]]:
 
 def _beside(target: Path) -> Path:
     """A new empty file in the target's folder, with the target's suffix, and its or the usual permissions."""
-    import tempfile  # here, because a dump to the screen should not wait for it
+    # Here, because a dump to the screen should not wait for them.
+    import tempfile
+    from pathlib import Path
 
     descriptor, name = tempfile.mkstemp(prefix=f".{target.stem[:100]}-", suffix=target.suffix, dir=target.parent)
     os.close(descriptor)

@@ -4,8 +4,6 @@ The tree knows no single keyword: a `SPHERE` is a Block whose keyword is "SPHERE
 to the top-level item that a node stands in, so that an item that an edit only moved can be used again as it is.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple, TypeAlias
 
 from .ir import Span
@@ -56,7 +54,7 @@ class Table(NamedTuple):
 class Body(NamedTuple):
     """`{ ... }`"""
 
-    items: tuple[Item, ...]
+    items: tuple["Item", ...]
     span: Span
 
 

@@ -5,8 +5,6 @@ reports it; a headline that is nothing but `{}` comes with the statement, from t
 diagnostic and `right` does not: the tests compile both. `m3dc --explain CODE` and docs/diagnostics.md show all of it.
 """
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple
 
 Severity = Literal["error", "warning", "hint"]

@@ -6,13 +6,13 @@ Exit status 0 when all is well (warnings allowed), 1 when the scene has errors, 
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import sys
 import time
-from pathlib import Path
+from functools import partial
 
 from . import Result, compile, report
-from .artefact import replacing
 from .dump import dump
 from .levels import levels
 
@@ -24,6 +24,8 @@ _PRINT = {"json": report.print_json, "sarif": report.print_sarif}
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command; returns the exit status."""
+    # What has been imported stays: no collection of garbage needs to look through it again.
+    gc.freeze()
     given = sys.argv[1:] if arguments is None else arguments
     # A bare --dump means standard output; argparse would take the scene for its file.
     options = _parser().parse_args(["--dump=-" if argument == "--dump" else argument for argument in given])
@@ -39,6 +41,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="m3dc",
+        # For each option that is added argparse makes one of these, which would ask for the terminal's width.
+        formatter_class=partial(argparse.HelpFormatter, width=80),
         usage="m3dc [-o OUT.m3ir | --check | --dump[=FILE]] [options] SCENE.m3d\n       m3dc --explain CODE",
         description="Compile a Mirage3D scene to flat scene IR, or show what it compiles to.",
         epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files.",
@@ -70,6 +74,7 @@ def _parser() -> argparse.ArgumentParser:
         ("--allow", "keep a warning back"),
     ):
         codes.add_argument(option, dest=option.strip("-"), action="append", default=[], metavar="CODE", help=does)
+    parser.formatter_class = argparse.HelpFormatter
     return parser
 
 
@@ -83,7 +88,7 @@ def _run(options: argparse.Namespace) -> int:
         return fail(f"{', '.join(chosen.unknown())} is no code of a diagnostic; docs/diagnostics.md lists them")
     name: str = options.scene
     try:
-        text = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
+        text = _read(name)
     except OSError as error:
         return fail(f"cannot read {name}: {error.strerror or error}")
     if len(text) > LARGEST_SOURCE:
@@ -101,25 +106,49 @@ def _run(options: argparse.Namespace) -> int:
     return 0 if options.check else _write(result, options, name)
 
 
-def _write(result: Result, options: argparse.Namespace, name: str) -> int:
-    target = options.dump or options.output or _beside(name)
-    try:
-        if options.dump == "-":
-            sys.stdout.write(dump(result.ir, time.ctime()))
-            sys.stdout.flush()
-        elif options.dump:
-            with replacing(Path(options.dump)) as (temporary,):
-                temporary.write_text(dump(result.ir, time.ctime()), encoding="utf-8")
-        elif target is None:
-            return fail("where should the IR of standard input go? Give -o OUT.m3ir")
-        else:
-            from . import m3ir
+def _read(name: str) -> bytes:
+    if name == "-":
+        return sys.stdin.buffer.read()
+    with open(name, "rb") as file:
+        return file.read()
 
-            m3ir.write(result.ir, Path(target))
+
+def _write(result: Result, options: argparse.Namespace, name: str) -> int:
+    if options.dump == "-":
+        return _print(dump(result.ir, time.ctime()))
+    # Here, because a dump to the screen should not wait for them.
+    from pathlib import Path
+
+    from . import m3ir
+    from .artefact import replacing
+
+    if options.dump or options.output:
+        target = Path(options.dump or options.output)
+    elif name == "-":
+        return fail("where should the IR of standard input go? Give -o OUT.m3ir")
+    else:
+        target = Path(name).with_suffix(".m3ir")
+    try:
+        if options.dump:
+            with replacing(target) as (temporary,):
+                temporary.write_text(dump(result.ir, time.ctime()), encoding="utf-8")
+        else:
+            m3ir.write(result.ir, target)
     except BrokenPipeError:
         raise
     except OSError as error:
         return fail(f"cannot write {target}: {error.strerror or error}; nothing was changed")
+    return 0
+
+
+def _print(text: str) -> int:
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        return fail(f"cannot write to standard output: {error.strerror or error}")
     return 0
 
 
@@ -129,10 +158,6 @@ def _explain(code: str) -> int:
         return fail(f"{code} is no code of a diagnostic; docs/diagnostics.md lists them")
     sys.stdout.write(text)
     return 0
-
-
-def _beside(scene: str) -> str | None:
-    return None if scene == "-" else str(Path(scene).with_suffix(".m3ir"))
 
 
 def fail(message: str) -> int:

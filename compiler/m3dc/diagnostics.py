@@ -1,7 +1,5 @@
 """Diagnostics: what is wrong in a scene, where, what was expected, and how to mend it."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from .catalogue import CATALOGUE, Severity

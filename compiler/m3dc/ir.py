@@ -9,10 +9,7 @@ of bytes of the source text that they came from.
 Rows of one table that belong to a row of another are consecutive, named by a `first_...` and a `..._count` column.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, NamedTuple, TypeAlias
 
@@ -209,16 +206,14 @@ TABLES: Mapping[str, Mapping[str, Column]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Extent:
+class Extent(NamedTuple):
     """Corners of the box about all finite primitives of solids and lights, in world space; None without any."""
 
     minimum: Triple
     maximum: Triple
 
 
-@dataclass(frozen=True, slots=True)
-class Ambient:
+class Ambient(NamedTuple):
     """Indirect light (thesis 7.5.5.1, AMBIENT)."""
 
     intensity: float
@@ -227,8 +222,7 @@ class Ambient:
     depth: int
 
 
-@dataclass(frozen=True, slots=True)
-class Haze:
+class Haze(NamedTuple):
     """Attenuation with distance (HAZE). `defined` is whether the scene has a HAZE block: it then is the background."""
 
     defined: bool
@@ -237,8 +231,7 @@ class Haze:
     density: float
 
 
-@dataclass(frozen=True, slots=True)
-class Sky:
+class Sky(NamedTuple):
     """The CIE sky (SKY). `sun` is the row of its sun in lights."""
 
     radius: float
@@ -249,8 +242,7 @@ class Sky:
     sun: int
 
 
-@dataclass(frozen=True, slots=True)
-class Mirage:
+class Mirage(NamedTuple):
     """Where curved rays end (MIRAGE). `elevation` is never above the profile's top. The profile is a table."""
 
     segments: int
@@ -258,8 +250,7 @@ class Mirage:
     elevation: float
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(NamedTuple):
     """The pin-hole camera (VIEW; thesis 3.2). `normal`, `right` and `up` are unit vectors.
 
     Pixel (x, y), from the top left, looks through
@@ -285,8 +276,7 @@ class View:
     distance: float
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(NamedTuple):
     """What a scene says once. `log_scale` 0 means none. `spans` are where its blocks stand, by keyword."""
 
     shadows: bool
@@ -299,16 +289,18 @@ class Scene:
     mirage: Mirage | None
     view: View
     extent: Extent | None
-    spans: dict[str, Span] = field(default_factory=dict[str, Span])
+    spans: Mapping[str, Span] = {}
 
 
-@dataclass(frozen=True, slots=True)
 class SceneIR:
     """A compiled scene. `tables` has every table and column of TABLES; `source` is the scene file's name."""
 
-    scene: Scene
-    tables: Mapping[str, Table]
-    source: str = ""
+    __slots__ = ("scene", "source", "tables")
+
+    def __init__(self, scene: Scene, tables: Mapping[str, Table], source: str = "") -> None:
+        self.scene = scene
+        self.tables = tables
+        self.source = source
 
     def __getitem__(self, table: str) -> Table:
         return self.tables[table]

@@ -6,7 +6,6 @@ named `table.column`.
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import zipfile
 from pathlib import Path
@@ -30,7 +29,7 @@ def write(scene: ir.SceneIR, path: Path) -> None:
         "format": "m3ir",
         "version": VERSION,
         "source": scene.source,
-        "scene": dataclasses.asdict(scene.scene),
+        "scene": _plain(scene.scene),
     }
     arrays = {
         f"{table}.{column}": values for table, columns in scene.tables.items() for column, values in columns.items()
@@ -76,6 +75,12 @@ def _column(archive: Any, name: str, column: ir.Column) -> Any:
     if values.dtype != np.dtype(column.dtype) or values.shape[1:] != column.shape:
         raise FormatError(f"it is damaged: {name} has the wrong type or shape")
     return values
+
+
+def _plain(scene: ir.Scene) -> dict[str, Any]:
+    """A Scene's JSON form."""
+    members = scene._asdict()
+    return members | {name: members[name]._asdict() for name in _PARTS if members[name] is not None}
 
 
 def _scene(data: dict[str, Any]) -> ir.Scene:

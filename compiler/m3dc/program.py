@@ -4,8 +4,6 @@ Whoever reads it need not ask whether a keyword may stand where it stands, wheth
 whether a name is declared with the right type: what did not pass is not in it.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple, TypeAlias
 
 from tree_sitter_m3d import TableData
@@ -45,7 +43,7 @@ class Block(NamedTuple):
 
     entry: language.Block
     source: Name | None
-    body: tuple[Member, ...]
+    body: tuple["Member", ...]
     broken: frozenset[str]
     keyword: Keyword
     span: Span

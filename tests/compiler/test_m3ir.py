@@ -20,6 +20,7 @@ def scene(examples: Path) -> SceneIR:
 
 def assert_same(left: SceneIR, right: SceneIR) -> None:
     assert left.scene == right.scene
+    assert type(left.scene.view) is type(right.scene.view)
     assert left.source == right.source
     for table, columns in TABLES.items():
         for column, description in columns.items():

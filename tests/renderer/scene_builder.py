@@ -8,7 +8,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -86,7 +85,7 @@ class SceneBuilder:
 
     def set(self, **changes):
         """Replaces fields of the scene."""
-        self.scene = replace(self.scene, **changes)
+        self.scene = self.scene._replace(**changes)
         return self
 
     def add(self, table, **columns):

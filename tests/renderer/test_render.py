@@ -1,7 +1,6 @@
 """What pictures show, on scenes whose answer is known."""
 
 import copy
-import dataclasses
 import itertools
 import math
 import threading
@@ -481,11 +480,11 @@ def test_the_same_picture_from_any_number_of_threads():
 def test_a_region_is_a_part_of_the_whole():
     scene = merman(64, 40)
     whole = render(scene)
-    view = dataclasses.replace(scene.scene.view, top=10, left=5, bottom=29, right_edge=40)
+    view = scene.scene.view._replace(top=10, left=5, bottom=29, right_edge=40)
     scene.set(view=view)
     assert render(scene).tobytes() == whole[10:30, 5:41].tobytes()
     assert render(scene, width=64).tobytes() == whole.tobytes()
-    outside = dataclasses.replace(view, bottom=500, right_edge=900)
+    outside = view._replace(bottom=500, right_edge=900)
     assert render(scene.set(view=outside)).tobytes() == whole[10:, 5:].tobytes()
 
 
@@ -547,7 +546,7 @@ def test_garbage_geometry_is_survived(value):
 def test_garbage_views_are_survived(value):
     scene = merman(8, 8)
     for name in ("right", "reference_point"):
-        broken = dataclasses.replace(scene.scene.view, **{name: (value, 0.0, 0.0)})
+        broken = scene.scene.view._replace(**{name: (value, 0.0, 0.0)})
         render(scene.set(view=broken))
 
 

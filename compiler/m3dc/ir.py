@@ -277,7 +277,8 @@ class View(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """What a scene says once. `log_scale` 0 means none. `spans` are where its blocks stand, by keyword."""
+    """What a scene says once. `log_scale` 0 means none. `refract_reflections` is whether the air bends mirror rays
+    too. `spans` are where its blocks stand, by keyword."""
 
     shadows: bool
     log_scale: float
@@ -289,6 +290,7 @@ class Scene(NamedTuple):
     mirage: Mirage | None
     view: View
     extent: Extent | None
+    refract_reflections: bool = False
     spans: Mapping[str, Span] = {}
 
 

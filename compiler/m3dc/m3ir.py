@@ -16,7 +16,7 @@ import numpy as np
 from . import ir
 from .artefact import replacing
 
-VERSION = 1
+VERSION = 2
 
 
 class FormatError(ValueError):

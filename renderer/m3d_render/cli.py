@@ -74,7 +74,12 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         help="rays a pixel, spread by a smooth filter: no jagged edges (1)",
     )
-    more.add_argument("--refract-reflections", action="store_true", help="the air bends mirror rays too")
+    more.add_argument(
+        "--refract-reflections",
+        action="store_true",
+        default=None,
+        help="the air bends mirror rays too, even if the scene does not say so",
+    )
     more.add_argument(
         "--aov",
         type=_layers,

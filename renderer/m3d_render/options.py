@@ -64,7 +64,7 @@ class RenderOptions(TypedDict, total=False):
     """Divides by the largest value of all, before LOGSCALE, instead of clipping at 1."""
     samples: int
     """Rays a pixel, spread by a Blackman-Harris filter three pixels wide; 1, the default, goes through its middle."""
-    refract_reflections: bool
+    refract_reflections: bool | None
     """Whether the air bends mirror rays as it bends those of the eye."""
     threads: int | None
     """How many threads work; all processors if not given. The picture does not depend on it."""

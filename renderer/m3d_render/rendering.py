@@ -151,6 +151,7 @@ class Prepared:
         rows = _whole("height", view.height if height is None else height, 1, LARGEST_SIDE)
         part = _part(self.ir, options, columns, rows)
         depth, shadows, log_scale = options.get("depth"), options.get("shadows"), options.get("log_scale")
+        refract_reflections = options.get("refract_reflections")
         return Request(
             width=columns,
             height=rows,
@@ -164,7 +165,7 @@ class Prepared:
             log_scale=float(scene.log_scale if log_scale is None else log_scale),
             normalize=options.get("normalize", False),
             samples=_whole("samples", options.get("samples", 1), 1, MOST_SAMPLES),
-            refract_reflections=options.get("refract_reflections", False),
+            refract_reflections=scene.refract_reflections if refract_reflections is None else bool(refract_reflections),
             layers=list(dict.fromkeys(aov)),
             threads=usable_threads() if threads is None else _whole("threads", threads, 1, 4096),
         )

@@ -8,6 +8,7 @@ import pytest
 from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, from_sun
 
 import m3d_render
+from m3dc import m3ir
 from m3dc.ir import Ambient, LightKind
 
 AXIS, DIAGONAL = 0.515594, 0.490719
@@ -250,6 +251,16 @@ def test_reflections_are_refracted_only_if_asked():
     assert not np.array_equal(plain, bent)
     straight = [render(scene, straight=True, refract_reflections=on) for on in (True, False)]
     np.testing.assert_array_equal(*straight)
+
+
+def test_the_scene_may_ask_for_refracted_reflections(tmp_path):
+    scene = mirage_mirror(MERMAN_PROFILE)
+    plain, bent = render(scene), render(scene, refract_reflections=True)
+    m3ir.write(scene.set(refract_reflections=True).build(), tmp_path / "asks.m3ir")
+    asks = m3ir.read(tmp_path / "asks.m3ir")
+    np.testing.assert_array_equal(m3d_render.render(asks), bent)
+    np.testing.assert_array_equal(m3d_render.render(asks, refract_reflections=None), bent)
+    np.testing.assert_array_equal(m3d_render.render(asks, refract_reflections=False), plain)
 
 
 def test_a_mirror_ray_bends_as_an_eye_ray_from_there_would():

@@ -267,7 +267,8 @@ impl<'a> Tracer<'a> {
             arcs.map(|arc| arc.length_to(arc.r1.min(until))).sum()
         };
         if let Some(Hit { t: r, shape }) = light.or(solid) {
-            let arc = path.find(r, 0).and_then(|i| path.arc(i).map(|&arc| (i, arc)));
+            // From the last arc back: few are made beyond a hit.
+            let arc = path.find(r, usize::MAX).and_then(|i| path.arc(i).map(|&arc| (i, arc)));
             self.tally.arcs += path.arcs().len() as u64;
             if let Some((i, arc)) = arc {
                 let tangent = DVec3::new(radial.x, radial.y, arc.slope_at(r));

@@ -128,6 +128,11 @@ pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<f64> {
                 return None;
             }
             let end = side(arc.r1, arc.z1);
+            // A level line is not crossed by an arc that does not turn and has both ends on one side.
+            if line.a == 0.0 && start * end > 0.0 && arc.apex == arc.z1 && !leaves {
+                start = end;
+                continue;
+            }
             let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
             let width = arc.r1 - arc.r0;
             let root = if leaves {

@@ -87,10 +87,11 @@ impl<'a> Path<'a> {
         self.tip = tip;
     }
 
-    /// Makes a few more arcs, for someone who looks at every one. False if there are no more.
+    /// Makes a few more arcs, at most as many as there are or eight, for someone who looks at every one. False if there
+    /// are no more.
     pub fn more(&mut self) -> bool {
         let made = self.arcs.len();
-        self.extend(8, f64::INFINITY);
+        self.extend(made.max(8), f64::INFINITY);
         self.arcs.len() > made
     }
 

@@ -57,16 +57,16 @@ impl Tip {
             keep(arc) && left > 0
         };
         while self.end.is_none() && most > 0 {
-            let arc = self.step(air);
-            if !keep(arc) {
-                return;
-            }
             let more = if self.slope > 0.0 {
                 self.pass_layers::<true>(air, &mut keep)
             } else {
                 self.pass_layers::<false>(air, &mut keep)
             };
-            if !more {
+            if !more || self.end.is_some() {
+                return;
+            }
+            let arc = self.step(air);
+            if !keep(arc) {
                 return;
             }
         }
@@ -90,7 +90,8 @@ impl Tip {
     /// once `keep` wants no more.
     #[inline(always)]
     fn pass_layers<const UP: bool>(&mut self, air: &Atmosphere, keep: &mut impl FnMut(Arc) -> bool) -> bool {
-        if self.end.is_some() || self.slope == 0.0 {
+        let begins = air.layers.get(self.layer).map(|layer| if UP { layer.bottom } else { layer.top });
+        if self.slope == 0.0 || begins != Some(self.z) {
             return true;
         }
         while let Some(layer) = air.layers.get(self.layer) {

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from enum import IntEnum
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
@@ -95,8 +95,9 @@ def _shown(value: Any) -> str:
         case bool() | np.bool_():
             return "yes" if bool(value) else "no"
         case tuple() | np.ndarray():
-            parts = [_shown(part) for part in cast("Iterable[Any]", value)]
-            if np.ndim(value) == 2:
+            array: Any = cast(Any, value)
+            parts = [_shown(part) for part in array]
+            if np.ndim(array) == 2:
                 return "; ".join(parts)
             return f"<{', '.join(parts)}>" if len(parts) == 3 else ", ".join(parts)
         case float() | np.floating():

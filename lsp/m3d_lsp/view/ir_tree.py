@@ -6,13 +6,13 @@ One sees what a renderer is given, and for each row where in the text it comes f
 from __future__ import annotations
 
 import asyncio
-import dataclasses
 from collections.abc import Iterator, Mapping
 from enum import IntEnum
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from m3dc.ir import LightKind, PrimitiveKind, SceneIR, Table, TextureKind
 
@@ -51,15 +51,14 @@ def _tree(good: Good) -> Iterator[Node]:
 def _fields(label: str, record: Any, good: Good, ir: SceneIR) -> Node:
     """A record of what the scene says once; a record within it is a node with the place of its block."""
     children: list[Node] = []
-    for field in dataclasses.fields(record):
-        value = getattr(record, field.name)
-        if field.name == "spans":
+    for name, value in record._asdict().items():
+        if name == "spans":
             continue
-        if dataclasses.is_dataclass(value):
-            inner = _fields(field.name, value, good, ir)
-            children.append({**inner, **_place(good, ir.scene.spans.get(field.name.upper()))})
+        if hasattr(value, "_asdict"):
+            inner = _fields(name, value, good, ir)
+            children.append({**inner, **_place(good, ir.scene.spans.get(name.upper()))})
         else:
-            children.append({"label": field.name, "description": _shown(value)})
+            children.append({"label": name, "description": _shown(value)})
     return {"label": label, "children": children}
 
 
@@ -95,7 +94,7 @@ def _shown(value: Any) -> str:
         case bool() | np.bool_():
             return "yes" if bool(value) else "no"
         case tuple() | np.ndarray():
-            array: Any = cast(Any, value)
+            array = cast("NDArray[Any]", value)
             parts = [_shown(part) for part in array]
             if np.ndim(array) == 2:
                 return "; ".join(parts)
@@ -103,4 +102,4 @@ def _shown(value: Any) -> str:
         case float() | np.floating():
             return f"{float(value) + 0.0:g}"
         case _:
-            return str(value)
+            return str(cast(object, value))

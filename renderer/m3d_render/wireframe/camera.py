@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +48,7 @@ def above(ir: SceneIR, columns: int, rows: int, marked: Points) -> View:
     eye = np.array([middle[0], middle[1], high[2] + height(up)])
     normal = np.array([0.0, 0.0, -1.0])
     distance = 1 / spread
-    return replace(
-        view,
+    return view._replace(
         eye=_triple(eye),
         target=_triple(middle),
         fov=ABOVE_FOV,

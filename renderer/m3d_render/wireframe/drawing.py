@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
@@ -111,7 +111,7 @@ def _divided(
     ir: SceneIR, view: View, columns: int, rows: int, layers: list[Layer], curved: list[bool]
 ) -> Iterator[Layer]:
     """Layers whose lines are either hidden or not: those that are hidden in part are divided."""
-    tracer = prepare(replace(ir, scene=replace(ir.scene, view=view))).kernel
+    tracer = prepare(SceneIR(ir.scene._replace(view=view), ir.tables, ir.source)).kernel
     for layer, one_piece in zip(layers, curved, strict=True):
         across = np.abs(layer.ends - layer.starts)[:, :2].max(axis=1, initial=0.0)
         counts = np.ones(len(across), np.int64) if one_piece else np.ceil(across / _PIECE).astype(np.int64) + 1

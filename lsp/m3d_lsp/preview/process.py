@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from io import BufferedIOBase
 from queue import SimpleQueue
 from threading import Thread
 from typing import Any, BinaryIO, cast
@@ -68,7 +69,7 @@ class Process:
         except OSError as error:
             self._in_loop(self._died, f"the process that draws previews can not be started: {error.strerror or error}")
             return
-        reader, writer = cast("BinaryIO", popen.stdout), cast("BinaryIO", popen.stdin)
+        reader, writer = cast("BufferedIOBase", popen.stdout), cast("BinaryIO", popen.stdin)
         channel = Channel(reader, writer)
         Thread(target=self._listen, args=(popen, channel), name="preview answers", daemon=True).start()
         # A broken pipe is noticed where answers are read.

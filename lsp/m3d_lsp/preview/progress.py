@@ -8,7 +8,7 @@ import asyncio
 import contextlib
 import uuid
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
@@ -29,11 +29,15 @@ class WorkDone:
         self._shown = False
         self._percentage = -1
 
+    @property
+    def _tokens(self) -> dict[types.ProgressToken, Future[Any]]:
+        return cast("Any", self._progress).tokens
+
     async def begin(self, title: str) -> None:
         if self._token is None and self._may_ask:
             token = str(uuid.uuid4())
             with contextlib.suppress(JsonRpcException):  # then there is no bar
-                await self._progress.create_async(token)
+                await self._progress.create_async(token)  # pyright: ignore[reportUnknownMemberType]
                 self._token = token
         if self._token is None:
             return
@@ -46,7 +50,7 @@ class WorkDone:
             if future.cancelled() and task is not None:
                 task.cancel()
 
-        self._progress.tokens[self._token].add_done_callback(cancelled)
+        self._tokens[self._token].add_done_callback(cancelled)
 
     def report(self, done: int, of: int) -> None:
         """Some of the work is done; told in whole percents."""
@@ -58,4 +62,4 @@ class WorkDone:
     def end(self) -> None:
         if self._shown and self._token is not None:
             self._progress.end(self._token, types.WorkDoneProgressEnd())
-            self._progress.tokens.pop(self._token, None)
+            self._tokens.pop(self._token, None)

@@ -12,9 +12,10 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from io import BufferedIOBase
 from pathlib import Path
 from threading import Lock, Thread
-from typing import Any
+from typing import Any, cast
 
 from m3d_render import Cancelled, PictureError, Prepared, SceneError, prepare, write_picture
 from m3d_render.command import CommandError, check_folder
@@ -210,7 +211,7 @@ def main() -> None:
     os.dup2(2, 1)
     if hasattr(os, "nice"):
         os.nice(NICENESS)
-    Worker(Channel(sys.stdin.buffer, writer)).run()
+    Worker(Channel(cast("BufferedIOBase", sys.stdin.buffer), writer)).run()
     os._exit(0)  # threads that still draw need not be waited for
 
 

@@ -1,0 +1,117 @@
+;;; mirage3d.el --- Mirage3D scenes, served by m3d-lsp  -*- lexical-binding: t; -*-
+
+;; Package-Requires: ((emacs "28.1") (eglot "1.9"))
+
+;;; Commentary:
+
+;; (add-to-list 'load-path ".../lsp/editors/emacs")
+;; (require 'mirage3d)
+;;
+;; opens .m3d files in `mirage3d-mode', with Eglot.  Eglot is part of Emacs
+;; since version 29; Debian has it for 28 in the package elpa-eglot.
+
+;;; Code:
+
+(require 'eglot)
+
+(defgroup mirage3d nil "Mirage3D scenes." :group 'languages)
+
+(defcustom mirage3d-command '("m3d-lsp")
+  "How the language server is started."
+  :type '(repeat string))
+
+(defcustom mirage3d-settings nil
+  "Settings of the server, as a property list of what is below `m3d':
+for instance (:diagnostics (:deny [\"all\"]))."
+  :type 'plist)
+
+(defvar mirage3d-mode-syntax-table
+  (let ((table (make-syntax-table)))
+    (modify-syntax-entry ?/ ". 14n" table)
+    (modify-syntax-entry ?* ". 23n" table)
+    (modify-syntax-entry ?_ "w" table)
+    (modify-syntax-entry ?< "(>" table)
+    (modify-syntax-entry ?> ")<" table)
+    table)
+  "Comments are as in C, and may stand in each other.")
+
+(defvar mirage3d-font-lock-keywords
+  '(("\\_<[A-Z][A-Z0-9]*\\_>" . font-lock-keyword-face)
+    ("^\\s-*\\([a-z_][A-Za-z0-9_]*\\)\\s-*=" 1 font-lock-variable-name-face)
+    ("[-+]?\\_<[0-9]+\\(?:\\.[0-9]+\\)?\\(?:[eE][-+]?[0-9]+\\)?\\_>" . font-lock-constant-face))
+  "Keywords of the language are in capitals.")
+
+;;;###autoload
+(define-derived-mode mirage3d-mode prog-mode "Mirage3D"
+  "Major mode for Mirage3D scenes."
+  (setq-local comment-start "/* "
+              comment-end " */"
+              comment-start-skip "/\\*+\\s-*"
+              indent-tabs-mode nil
+              font-lock-defaults '(mirage3d-font-lock-keywords)
+              eglot-workspace-configuration (list :m3d mirage3d-settings))
+  (eglot-ensure))
+
+;;;###autoload
+(add-to-list 'auto-mode-alist '("\\.m3d\\'" . mirage3d-mode))
+
+(add-to-list 'eglot-server-programs
+             (cons 'mirage3d-mode (lambda (&rest _) mirage3d-command)))
+
+;;; What the server answers beyond LSP (docs/protocol.md)
+
+(defvar-local mirage3d--scene nil "In the buffer of a dump, the scene's.")
+
+(cl-defmethod eglot-handle-notification
+  (_server (_method (eql m3d/analysed)) &key uri &allow-other-keys)
+  "Fill the dump of the scene at URI anew, if it is shown."
+  (when-let ((scene (find-buffer-visiting (eglot--uri-to-path uri))))
+    (dolist (buffer (buffer-list))
+      (when (eq scene (buffer-local-value 'mirage3d--scene buffer))
+        (mirage3d--refresh buffer)))))
+
+(defun mirage3d--refresh (buffer)
+  "Fill BUFFER with the dump of its scene."
+  (with-current-buffer (buffer-local-value 'mirage3d--scene buffer)
+    (jsonrpc-async-request
+     (eglot--current-server-or-lose) :m3d/dump
+     (list :textDocument (eglot--TextDocumentIdentifier))
+     :success-fn
+     (lambda (answer)
+       (when (buffer-live-p buffer)
+         (with-current-buffer buffer
+           (let ((inhibit-read-only t) (place (point)))
+             (erase-buffer)
+             (insert (plist-get answer :text))
+             (goto-char (min place (point-max)))
+             (setq mode-name
+                   (if (eq t (plist-get answer :stale)) "Dump (stale)" "Dump")))))))))
+
+(defun mirage3d-dump ()
+  "Show what the scene resolves to, and keep that up to date."
+  (interactive)
+  (let ((scene (current-buffer))
+        (shown (get-buffer-create (format "*dump of %s*" (buffer-name)))))
+    (with-current-buffer shown
+      (special-mode)
+      (setq mirage3d--scene scene))
+    (mirage3d--refresh shown)
+    (display-buffer shown)))
+
+(defun mirage3d-render (path &optional straight)
+  "Render the scene as it stands in the buffer into the picture file PATH.
+With a prefix argument STRAIGHT, with straight rays."
+  (interactive "FPicture (.png, .exr, .tif): \nP")
+  (jsonrpc-async-request
+   (eglot--current-server-or-lose) :m3d/preview/save
+   (list :textDocument (eglot--TextDocumentIdentifier)
+         :optics (if straight "straight" "mirage")
+         :path (expand-file-name path))
+   :timeout 3600
+   :success-fn
+   (lambda (answer)
+     (message "%s" (or (plist-get answer :message)
+                       (format "%s: %s" path (plist-get answer :status)))))))
+
+(provide 'mirage3d)
+;;; mirage3d.el ends here

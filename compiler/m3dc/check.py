@@ -7,6 +7,7 @@ declared and with what type. Values out of range are the evaluator's business, f
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from functools import partial
@@ -17,10 +18,12 @@ from tree_sitter_m3d import table as language
 from tree_sitter_m3d.table import LANGUAGE
 
 from . import ast, program
+from .cut import cut
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
 from .memo import Ledger, Steps
 from .source import Source
+from .syntax import with_digits
 
 # The members of every block that is a variable type: what the body of an assignment may hold when the type of its
 # variable is not known.
@@ -98,16 +101,30 @@ class Checker:
                 fix = Fix(f"Replace with {near[0]}", declaration.type.span, near[0]) if near else None
                 self._findings.add("M3D0109", declaration.type.span, f"{type_} is not a type{hint}", fix=fix)
                 continue
-            for name in declaration.names:
+            for number, name in enumerate(declaration.names):
                 before = self.known.get(name.text)
                 if before is not None and self._names:
                     related = (Related(before.place, "first declared here"),)
                     detail = f"{name.text} is already a {before.type}"
-                    self._findings.add("M3D0201", name.span, detail, related=related)
+                    again = self._without(declaration, number) if before.type == type_ else None
+                    fix = Fix(f"Remove this {name.text}", again, "") if again else None
+                    self._findings.add("M3D0201", name.span, detail, related=related, fix=fix)
                     continue
                 self.known[name.text] = Known(type_, self._findings.absolute(name.span))
                 declared.append(program.Declaration(name, type_))
         return tuple(declared)
+
+    def _without(self, declaration: ast.Declaration, number: int) -> Span:
+        """What to cut out so that a declaration lacks one of its names, or is gone with its only one."""
+        names = declaration.names
+        if number:
+            return names[number - 1].span[1], names[number].span[1]
+        return (names[0].span[0], names[1].span[0]) if len(names) > 1 else self._cut(declaration.span)
+
+    def _cut(self, span: Span) -> Span:
+        """A part of the current item, with what goes with it when it is cut out."""
+        start, end = cut(self._data, span[0] + self._start, span[1] + self._start)
+        return max(start - self._start, 0), end - self._start
 
     def _only_once(self, keyword: str, span: Span, message: str, seen: dict[str, Span] | None) -> bool:
         """Whether this is the first of what was `seen` in a block, or, without that, in the file; reports any other."""
@@ -181,7 +198,9 @@ class Checker:
             return None
         if isinstance(value, ast.Name):
             if value.text == item.target.text:
-                self._findings.add("M3D0204", value.span, f"{value.text} already has its own value")
+                gone = item.span if item.body is None else (value.span[0], item.body.span[0])
+                fix = Fix(f"Remove {'the assignment' if item.body is None else value.text}", gone, "")
+                self._findings.add("M3D0204", value.span, f"{value.text} already has its own value", fix=fix)
                 return None
             if not self._is_usable(value, target):
                 return None
@@ -244,7 +263,8 @@ class Checker:
                     keyword = member.entry.keyword
                     if keyword in overwritten:
                         related = (Related(self._findings.absolute(member.span), "this one counts"),)
-                        self._findings.add("M3D0512", overwritten[keyword], fill=keyword, related=related)
+                        fix = Fix(f"Remove this {keyword}", self._cut(overwritten[keyword]), "")
+                        self._findings.add("M3D0512", overwritten[keyword], fill=keyword, related=related, fix=fix)
                     overwritten[keyword] = member.span
             elif not isinstance(item, ast.Assignment):
                 broken.add(item.keyword.text)
@@ -264,11 +284,11 @@ class Checker:
                 self._invalid(block, item.keyword.span, self._wrong_form(item, block))
         return None
 
-    def _invalid(self, block: language.Block, span: Span, detail: str) -> None:
+    def _invalid(self, block: language.Block, span: Span, detail: str, fix: Fix | None = None) -> None:
         if block is ANY_BODY:
-            self._findings.add("M3D0107", span, detail)
+            self._findings.add("M3D0107", span, detail, fix=fix)
         else:
-            self._findings.add("M3D0106", span, detail, fill=statement_of(block.keyword))
+            self._findings.add("M3D0106", span, detail, fill=statement_of(block.keyword), fix=fix)
 
     def _wrong_form(self, item: ast.Statement | ast.Table | ast.Block | ast.Variables, block: language.Block) -> str:
         """Why an item does not belong: wrong keyword, or the right keyword in another form."""
@@ -295,7 +315,9 @@ class Checker:
         for expected, argument in zip(wanted, given, strict=False):
             good &= self._argument(argument, expected)
         if len(given) > len(wanted):
-            self._invalid(block, given[len(wanted)].span, f"{entry.keyword} takes {_takes(entry)}")
+            gone = (item.keyword.span[1], given[-1].span[1])
+            fix = Fix(f"Write {entry.keyword} alone", gone, "") if entry.is_flag else None
+            self._invalid(block, given[len(wanted)].span, f"{entry.keyword} takes {_takes(entry)}", fix)
             return None
         if len(given) < len(wanted):
             missing = wanted[len(given)]
@@ -350,7 +372,20 @@ class Checker:
     def _table_stop(self, entry: language.Table, stop: Stop, end: int) -> None:
         start = min(stop.offset - self._start, end)
         code, fill = _STOP_CODE.get(stop.expected, ("M3D0101", stop.expected))
-        self._findings.add(code, (start, start + 1), _table_detail(entry), fill=fill)
+        fix = self._digit_added(start) if stop.expected == "digit" else None
+        self._findings.add(code, (start, start + 1), _table_detail(entry), fill=fill, fix=fix)
+
+    def _digit_added(self, place: int) -> Fix | None:
+        """The fix for a numeral in a table that lacks a digit at a place of the item."""
+        at = place + self._start
+        before = _NUMERAL_END.search(self._data[max(at - _LONG_NUMERAL, 0) : at])
+        after = _NUMERAL.match(self._data, at)
+        assert before is not None
+        assert after is not None
+        text = before[0] + after[0]
+        mended = with_digits(text)
+        start = place - len(before[0])
+        return None if mended is None else Fix(f"Write {mended}", (start, start + len(text)), mended)
 
     def _short(self, item: ast.Table, entry: language.Table, missing: language.Argument) -> program.Table:
         """A table whose last row is not whole."""
@@ -358,6 +393,10 @@ class Checker:
         self._findings.add(_SHAPE_CODE[missing.shape], (end - 1, end), _table_detail(entry))
         return program.Table(entry, None, 0, (), (), item.keyword, item.span, broken=True)
 
+
+_NUMERAL = re.compile(rb"[^\s<>,{}]*")
+_NUMERAL_END = re.compile(rb"[^\s<>,{}]*\Z")
+_LONG_NUMERAL = 64  # bytes
 
 # What is reported where a table of numbers stops fitting; elsewhere a punctuation mark is missing.
 _STOP_CODE = {

@@ -18,12 +18,12 @@ from tree_sitter_m3d import table as language
 from tree_sitter_m3d.table import LANGUAGE, Default
 
 from . import ast, program
-from .diagnostics import Findings
+from .diagnostics import Findings, Fix
 from .finish import FINISH
 from .ir import Span
 from .memo import Ledger, Steps
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
-from .values import Record, TableValue, Value, Vector
+from .values import Record, TableValue, Value, Vector, spelled
 
 INTEGER_LIMIT = 2**31 - 1
 
@@ -193,7 +193,9 @@ class Evaluator:
             assert isinstance(member, program.Statement)
             if member.entry.keyword == "IDENTITY":
                 if depth:
-                    self._findings.add("M3D0502", member.span, "put it first, or leave out what stands before it")
+                    fix = Fix("Remove what stands before it", (members[0].span[0], member.span[0]), "")
+                    detail = "put it first, or leave out what stands before it"
+                    self._findings.add("M3D0502", member.span, detail, fix=fix)
                 transform, depth = IDENTITY, 0
                 continue
             depth += 1
@@ -262,6 +264,7 @@ class Evaluator:
         if all(part in bounds.interval for part in parts):
             return value
         shown = ", ".join(f"{part:g}" for part in parts)
+        fix = None
         if bounds.policy == "error":
             self._findings.add(
                 "M3D0401",
@@ -275,13 +278,15 @@ class Evaluator:
             value = default[number] if isinstance(default, tuple) and len(default) > 1 else default
             assert isinstance(value, (int, float))
             detail = f"{entry.keyword} {shown} is replaced by the default, {value:g}"
+            fix = _written(argument, float(value))
         elif bounds.policy == "limit":
             clamped = tuple(bounds.interval.nearest(part) for part in parts)
             value = (clamped[0], clamped[1], clamped[2]) if isinstance(value, tuple) else clamped[0]
             detail = f"{entry.keyword} {shown} is replaced by {', '.join(f'{part:g}' for part in clamped)}"
+            fix = _written(argument, value)
         else:
             detail = f"{entry.keyword} is {shown}"
-        self._findings.add(_SUBSTITUTED[bounds.policy], argument.span, detail, fill=bounds.message)
+        self._findings.add(_SUBSTITUTED[bounds.policy], argument.span, detail, fill=bounds.message, fix=fix)
         return value
 
     def _value(self, argument: ast.Argument) -> float | Vector:
@@ -392,6 +397,18 @@ class Evaluator:
 
     def _row_error(self, code: str, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
         self._findings.add_at(code, value.place(row), detail, fill=fill)
+
+
+def _written(argument: ast.Argument, value: float | Vector) -> Fix | None:
+    """The fix that writes what takes the place of a number or vector; None of one that is, or has, a variable."""
+    match argument:
+        case ast.Number() if isinstance(value, float):
+            text = spelled(value)
+        case ast.Vector() if isinstance(value, tuple) and all(isinstance(c, ast.Number) for c in argument.components):
+            text = f"< {', '.join(map(spelled, value))} >"
+        case _:
+            return None
+    return Fix(f"Write {text}", argument.span, text)
 
 
 # The tables that may not stand beside another, or itself, in one POLYGONS or TERRAIN (thesis 7.5.5.3).

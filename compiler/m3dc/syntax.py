@@ -17,7 +17,7 @@ import tree_sitter_m3d
 from tree_sitter_m3d.table import LANGUAGE
 
 from . import ast, long_tables
-from .diagnostics import Diagnostic, Findings
+from .diagnostics import Diagnostic, Findings, Fix
 from .ir import Span
 from .places import REACH, Places
 from .source import Source
@@ -27,6 +27,8 @@ DEEPEST = 40
 
 _GRAMMAR = Language(tree_sitter_m3d.language())
 _NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
+_LEADING_POINT = re.compile(rb"^([+-]?)\.")
+_BARE_POINT = re.compile(rb"(\.)(?![0-9])")
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 
 
@@ -381,13 +383,21 @@ class _Builder:
         end = match.end() if match else 0
         start, stop = self._span(node)
         if end < len(text):
-            self._findings.add("M3D0104", (start + end, stop), _digit_detail(text, end))
+            mended = with_digits(text)
+            fix = Fix(f"Write {mended}", (start, stop), mended) if mended else None
+            self._findings.add("M3D0104", (start + end, stop), _digit_detail(text, end), fix=fix)
             return ast.Number(math.nan, (start, stop))
         value = float(text)
         if value in (float("inf"), float("-inf")):
             self._findings.add("M3D0114", (start, stop), "the largest number is about 1.8e308")
             value = math.nan
         return ast.Number(value, (start, stop))
+
+
+def with_digits(text: bytes) -> str | None:
+    """A numeral that lacks a digit beside its point, with a 0 there; None where that makes no numeral of it."""
+    mended = _BARE_POINT.sub(rb"\g<1>0", _LEADING_POINT.sub(rb"\g<1>0.", text))
+    return mended.decode() if mended != text and _NUMBER.fullmatch(mended) else None
 
 
 def _digit_detail(text: bytes, end: int) -> str:

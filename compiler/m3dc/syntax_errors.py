@@ -47,11 +47,24 @@ def mend_braces(data: bytes, text: str, root: Node, findings: Findings) -> bytes
         if fault.missing:
             related = (Related((fault.opened, fault.opened + 1), "the block that is open begins here"),)
             place = (fault.offset, fault.offset)
-            findings.add("M3D0101", place, "this block is not closed", fill="}", related=related)
+            fix = Fix("Close the block", place, _closing(data, fault.opened, fault.offset))
+            findings.add("M3D0101", place, "this block is not closed", fill="}", related=related, fix=fix)
         else:
             place = (fault.offset, fault.offset + 1)
-            findings.add("M3D0107", place, "found '}', which closes more than was opened")
+            fix = Fix("Remove this brace", place, "")
+            findings.add("M3D0107", place, "found '}', which closes more than was opened", fix=fix)
     return mended
+
+
+def _closing(data: bytes, opened: int, end: int) -> str:
+    """A closing brace for the block whose brace is `opened`: on a line of its own, indented like the line on which that
+    one stands, if the block has several lines."""
+    if b"\n" not in data[opened:end]:
+        return " }"
+    line = data.rfind(b"\n", 0, opened) + 1
+    margin = data[line:opened]
+    indent = margin[: len(margin) - len(margin.lstrip())].decode("ascii", "replace")
+    return f"\n{indent}}}"
 
 
 def _before_first_fault(root: Node) -> int:
@@ -176,19 +189,21 @@ def _explain(fault: SyntaxFault, text: str, base: int, findings: Findings) -> No
     marks = [_PUNCTUATION[name] for name in expected if name in _PUNCTUATION]
     unclosed = not token or (fault.block is not None and token in LANGUAGE.top)
     if token == "*/":
-        findings.add("M3D0105", span, "this closes a comment that was never opened")
+        fix = Fix("Remove it", span, "")
+        findings.add("M3D0105", span, "this closes a comment that was never opened", fix=fix)
     elif unclosed and "RBRACE" in expected:
         end = base + len(text[: fault.offset].rstrip())
         span = (end, end)
         opened = _open_brace(text[: fault.offset])
         related = (Related((base + opened, base + opened + 1), "the block that is open begins here"),)
-        findings.add("M3D0101", span, found, fill="}", related=related)
+        findings.add("M3D0101", span, found, fill="}", related=related, fix=_inserted("}", fault, text, base))
     elif expected == frozenset(("IDENTIFIER",)):
         findings.add("M3D0108", span, f"{found}; a name starts with a letter and is not a keyword")
     elif len(marks) == len(expected) == 1:
-        findings.add("M3D0101", span, found, fill=marks[0])
+        findings.add("M3D0101", span, found, fill=marks[0], fix=_inserted(marks[0], fault, text, base))
     elif expected == frozenset(("COMMA", "SEMICOLON")):
-        findings.add("M3D0101", span, found, fill="," if token.isidentifier() else ";")
+        mark = "," if token.isidentifier() else ";"
+        findings.add("M3D0101", span, found, fill=mark, fix=_inserted(mark, fault, text, base))
     elif expected == frozenset(("IDENTIFIER", "LBRACE")):
         findings.add("M3D0101", span, f"{found}; the name of a variable could stand here too", fill="{")
     elif fault.block == "VARIABLES":
@@ -204,6 +219,21 @@ def _explain(fault: SyntaxFault, text: str, base: int, findings: Findings) -> No
         findings.add("M3D0106", span, detail, fill=statement_of(fault.block), fix=fix)
     else:
         findings.add("M3D0107", span, _near(token, expected, found), fix=_replacement(token, expected, span))
+
+
+def _inserted(mark: str, fault: SyntaxFault, text: str, base: int) -> Fix | None:
+    """The fix that puts a mark before the token at which the text stops being a sentence, right after the one before.
+    None if the sentence does not go on with that token then."""
+    at = len(text[: fault.offset].rstrip())
+    if fault.offset - at > SHORT // 2:
+        return None  # there may be the rows of a table between the two, which are blanked out
+    new = mark if mark in ",;" else f" {mark}"
+    # What comes after the next few tokens does not matter.
+    rest = text[at : fault.offset + fault.length + SHORT]
+    after = first_error(text[:at] + new + rest)
+    if after is not None and after.length and after.offset <= fault.offset + len(new):
+        return None
+    return Fix(f"Insert '{mark}'", (base + at, base + at), new)
 
 
 _PUNCTUATION = {"LBRACE": "{", "RBRACE": "}", "COMMA": ",", "EQUAL": "=", "RANGLE": ">", "SEMICOLON": ";"}

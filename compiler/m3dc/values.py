@@ -16,6 +16,12 @@ Vector: TypeAlias = tuple[float, float, float]
 Value: TypeAlias = "float | Vector | Record"
 
 
+def spelled(number: float) -> str:
+    """A number as a scene has it, in as few digits as tell it from all others."""
+    short = f"{number:g}"
+    return short if float(short) == number else repr(number)
+
+
 class TableValue(NamedTuple):
     """The numbers of a table: `rows` (n, width) as written; `offsets` (n) is how far after the beginning of `span`
     each row starts."""

@@ -41,6 +41,56 @@ def test_a_fix_never_adds_an_error(scene: Path) -> None:
         assert diagnostic._replace(fix=None) not in [d._replace(fix=None) for d in mended.diagnostics]
 
 
+@pytest.mark.parametrize(
+    ("wrong", "mended"),
+    [
+        ("VARIABLES { NUMBER a b; }", "VARIABLES { NUMBER a, b; }"),
+        ("VARIABLES { NUMBER a }", "VARIABLES { NUMBER a; }"),
+        ("SOLID { SPHERE { CENTER < 1 2, 3 > } }", "SOLID { SPHERE { CENTER < 1, 2, 3 > } }"),
+        ("SOLID { SPHERE { CENTER < 1, 2, 3 } }", "SOLID { SPHERE { CENTER < 1, 2, 3 > } }"),
+        ("SOLID { SPHERE { RADIUS 1 }", "SOLID { SPHERE { RADIUS 1 } }"),
+        ("SOLID\n{\n    SPHERE {\n        RADIUS 1\n}\n", "SOLID\n{\n    SPHERE {\n        RADIUS 1\n    }\n}\n"),
+        ("SOLID { SPHERE { } } }", "SOLID { SPHERE { } } "),
+        ("SOLID { SPHERE { } } */ LIGHT { }", "SOLID { SPHERE { } }  LIGHT { }"),
+        ("SOLID { SPHERE { RADIUS 2. } }", "SOLID { SPHERE { RADIUS 2.0 } }"),
+        ("SOLID { SPHERE { CENTER < -.5, 1.e5, 0 > } }", "SOLID { SPHERE { CENTER < -0.5, 1.e5, 0 > } }"),
+        ("SCENE { MIRAGE { PROFILE { 0 -.5 5 11 20 12 } } }", "SCENE { MIRAGE { PROFILE { 0 -0.5 5 11 20 12 } } }"),
+        ("SCENE { MIRAGE { PROFILE { 0 5. 5 11 20 12 } } }", "SCENE { MIRAGE { PROFILE { 0 5.0 5 11 20 12 } } }"),
+        ("VARIABLES { NUMBER a, a, b; }", "VARIABLES { NUMBER a, b; }"),
+        ("VARIABLES { NUMBER a; NUMBER a; VECTOR b; }", "VARIABLES { NUMBER a; VECTOR b; }"),
+        ("VARIABLES { NUMBER a; NUMBER a, b; }", "VARIABLES { NUMBER a; NUMBER b; }"),
+        ("VARIABLES { SPHERE b; } b = b { RADIUS 2 }", "VARIABLES { SPHERE b; } b = { RADIUS 2 }"),
+        ("VARIABLES { SPHERE b; } b = b", "VARIABLES { SPHERE b; } "),
+        ("SCENE { SHADOWS 1 }", "SCENE { SHADOWS }"),
+        ("SCENE { DEPTH 0 }", "SCENE { DEPTH 2 }"),
+        ("SCENE { BACKGROUND < 0.123456789, 1.5, -1 > }", "SCENE { BACKGROUND < 0.123456789, 1, 0 > }"),
+        ("SOLID { SPHERE { RADIUS 2 RADIUS 3 } }", "SOLID { SPHERE { RADIUS 3 } }"),
+        ("SOLID { SPHERE {\n  RADIUS 2\n  RADIUS 3\n} }", "SOLID { SPHERE {\n  RADIUS 3\n} }"),
+        (
+            "SOLID { SPHERE { TRANSFORM { TRANSX 5 IDENTITY ROTZ 30 } } }",
+            "SOLID { SPHERE { TRANSFORM { IDENTITY ROTZ 30 } } }",
+        ),
+    ],
+)
+def test_a_fix_mends(wrong: str, mended: str) -> None:
+    fix = next(diagnostic.fix for diagnostic in m3dc.compile(wrong).diagnostics if diagnostic.fix is not None)
+    assert wrong[: fix.span[0]] + fix.text + wrong[fix.span[1] :] == mended
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "SOLID { SPHERE { CENTER < 1, 2 > } }",  # what the third number is nobody knows
+        "SOLID { SPHERE { RADIUS 2x } }",
+        "VARIABLES { NUMBER a; VECTOR a; }",
+        "VARIABLES { NUMBER a; } a = -5 SCENE { DEPTH a }",
+    ],
+)
+def test_what_is_not_certain_has_no_fix(wrong: str) -> None:
+    assert [diagnostic.fix for diagnostic in m3dc.compile(wrong).diagnostics] != []
+    assert not any(diagnostic.fix for diagnostic in m3dc.compile(wrong).diagnostics)
+
+
 WITHOUT_SCENE = {"M3D0112", "M3D0113", "M3D0115"}  # an empty file, a binary one, one with ten thousand errors
 
 

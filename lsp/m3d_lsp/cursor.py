@@ -6,6 +6,7 @@ the beginning of the top-level item that the cursor is in.
 
 from __future__ import annotations
 
+import math
 import re
 from typing import NamedTuple
 
@@ -23,12 +24,22 @@ from .text import Span
 # types of variables.
 _ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b[A-Za-z]\w*\s*=")
 _LONG_TABLE = re.compile(r"[A-Z]+\s*\{[^{}A-DF-Za-df-z]{500,}\}")
+_OPEN_TABLE = re.compile(r"\{[^{}A-DF-Za-df-z]{500,}\Z")
+_NUMBER = re.compile(r"[^\s<>,{]+")
 _REST = re.compile(rb"[A-Za-z0-9_.]*")
 _WORD = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
 
 # How far back the beginning of the item is looked for.
 _NEAR, _FAR = 2_000, 500_000
 _LONGEST_WORD = 300
+
+
+def _numbers(arguments: tuple[Argument, ...]) -> int:
+    return sum(max(len(argument.components), 1) for argument in arguments)
+
+
+# So many numbers are whole rows in every table.
+_WHOLE_ROWS = math.lcm(*(_numbers(table.row) for block in LANGUAGE.blocks.values() for table in block.tables.values()))
 
 
 class Slot(NamedTuple):
@@ -61,9 +72,8 @@ def read(snapshot: Snapshot, offset: int) -> Cursor:
     data = snapshot.text.data
     before = _WORD.search(data[max(offset - _LONGEST_WORD, 0) : offset])
     start = offset - len(before[0]) if before else offset
-    prefix = read_prefix(_item_before(data, snapshot.analysis.tree, start) or "")
-    if _in_comment(snapshot.analysis.tree, offset):
-        prefix = NOTHING
+    item = None if _in_comment(snapshot.analysis.tree, offset) else _item_before(data, snapshot.analysis.tree, start)
+    prefix = NOTHING if item is None else read_prefix(item)
     block = _block(snapshot, prefix)
     entry = _entry(prefix, block)
     return Cursor(prefix, (start, offset), block, entry, _slot(prefix, entry))
@@ -82,7 +92,7 @@ def _in_comment(tree: Tree, offset: int) -> bool:
 
 def _item_before(data: bytes, tree: Tree, end: int) -> str | None:
     """The text from the beginning of a top-level item, the one that a byte is in or the one before, up to the byte;
-    long tables are left out. None inside of a very long one."""
+    of long tables only the ends are left. None inside of a very long one."""
     reach = _NEAR
     while True:
         start = max(end - reach, 0)
@@ -92,10 +102,20 @@ def _item_before(data: bytes, tree: Tree, end: int) -> str | None:
         text = blank_comments(data[start:end].decode("utf-8", "replace"))
         item = _last_item(text)
         if item is not None or start == 0:
-            return _LONG_TABLE.sub("", text[item or 0 :])
+            return _OPEN_TABLE.sub(_shortened, _LONG_TABLE.sub("", text[item or 0 :]))
         if reach >= _FAR:
             return None
         reach *= 8
+
+
+def _shortened(table: re.Match[str]) -> str:
+    """A table that goes on at the cursor, without most of its rows: as many numbers are left out as make whole rows."""
+    text = table[0]
+    starts = [number.start() for number in _NUMBER.finditer(text)]
+    left_out = (len(starts) - 2 * _WHOLE_ROWS) // _WHOLE_ROWS * _WHOLE_ROWS
+    if left_out <= 0:
+        return text
+    return text[: starts[_WHOLE_ROWS]] + text[starts[_WHOLE_ROWS + left_out] :]
 
 
 def _last_item(text: str) -> int | None:
@@ -166,7 +186,7 @@ def _walk(head: tuple[Argument, ...], row: tuple[Argument, ...], tokens: tuple[T
     arguments = [*head, *row]
     if index >= len(arguments):
         index = len(head) + (index - len(head)) % len(row)
-    number = sum(max(len(argument.components), 1) for argument in arguments[:index])
+    number = _numbers(tuple(arguments[:index]))
     argument = arguments[index]
     component = min(component, len(argument.components) - 1) if component is not None and argument.components else None
     return Slot(argument, component, number + (component or 0))

@@ -58,6 +58,17 @@ async def test_rows(editor: Editor) -> None:
     )
 
 
+async def test_a_long_table(editor: Editor) -> None:
+    rows = " ".join(f"{n} {n + 1} {n + 2}" for n in range(5000))
+    await check(
+        editor, f"SOLID {{ POLYGONS {{ FACETS {{ 5001 {rows} 7 $0", "FACETS { facets  first [second] third  ... }"
+    )
+    rows = " ".join(f"< {n}, 0, 1e-1 >" for n in range(5000))
+    await check(
+        editor, f"SOLID {{ POLYGONS {{ VERTICES {{ 5001 {rows} < 7, $0", "VERTICES { vertices  < x, [y], z >  ... }"
+    )
+
+
 async def test_the_same_keyword_in_another_block(editor: Editor) -> None:
     await check(editor, "SOLID { SPHERE { TRANSFORM { SCALE $0", "SCALE < [x], y, z >")
     await check(editor, "SOLID { SPHERE { } SURFACE { TEXTURE { SPOTTED { SCALE $0", "SCALE [amount]")

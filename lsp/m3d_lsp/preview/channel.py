@@ -6,7 +6,7 @@ import pickle
 import struct
 from io import BufferedIOBase
 from threading import Lock
-from typing import Any, BinaryIO, cast
+from typing import Any, BinaryIO
 
 # Bytes of the pickle, and how many arrays follow; then the bytes of each.
 _HEADER = struct.Struct("<QQ")
@@ -16,7 +16,7 @@ _LENGTH = struct.Struct("<Q")
 class Channel:
     """Two pipes. One thread may receive; any number may send. Both raise OSError when a pipe breaks."""
 
-    def __init__(self, reader: BinaryIO, writer: BinaryIO) -> None:
+    def __init__(self, reader: BufferedIOBase, writer: BinaryIO) -> None:
         self._reader = reader
         self._writer = writer
         self._lock = Lock()
@@ -45,7 +45,7 @@ class Channel:
         data = bytearray(length)
         view, done = memoryview(data), 0
         while done < length:
-            count = cast(BufferedIOBase, self._reader).readinto(view[done:])
+            count = self._reader.readinto(view[done:])
             if not count:
                 raise EOFError
             done += count

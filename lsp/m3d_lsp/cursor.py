@@ -23,14 +23,14 @@ from .text import Span
 # What begins an item: nothing else stands at the top level, and these stand nowhere else, but for SOLID and LIGHT as
 # types of variables.
 _ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b[A-Za-z]\w*\s*=")
-_LONG_TABLE = re.compile(r"[A-Z]+\s*\{[^{}A-DF-Za-df-z]{500,}\}")
+_COMPLETE = re.compile(rf"\b(?:{'|'.join(sorted(LANGUAGE.keywords))})\b\s*(?:[A-Za-z]\w*\s*)?\{{[^{{}}]*\}}")
 _OPEN_TABLE = re.compile(r"\{[^{}A-DF-Za-df-z]{500,}\Z")
 _NUMBER = re.compile(r"[^\s<>,{]+")
 _REST = re.compile(rb"[A-Za-z0-9_.]*")
 _WORD = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
 
 # How far back the beginning of the item is looked for.
-_NEAR, _FAR = 2_000, 500_000
+_NEAR, _FAR = 2_000, 200_000
 _LONGEST_WORD = 300
 
 
@@ -92,20 +92,37 @@ def _in_comment(tree: Tree, offset: int) -> bool:
 
 def _item_before(data: bytes, tree: Tree, end: int) -> str | None:
     """The text from the beginning of a top-level item, the one that a byte is in or the one before, up to the byte;
-    of long tables only the ends are left. None inside of a very long one."""
-    reach = _NEAR
-    while True:
-        start = max(end - reach, 0)
-        node = tree.root_node.descendant_for_byte_range(start, start)
-        if start and node is not None and node.type == "comment" and node.end_byte <= end:
-            start = node.end_byte
-        text = blank_comments(data[start:end].decode("utf-8", "replace"))
+    long tables are left out, but for the ends of one that goes on. None inside of a very long one."""
+    pieces: list[str] = []
+    at, reach, total = end, _NEAR, 0
+    while total < _FAR:
+        start = max(at - reach, 0)
+        token = tree.root_node.descendant_for_byte_range(start, start)
+        before = start
+        if token is not None and token.type in ("comment", "numeric_table") and token.start_byte < start:
+            before = token.start_byte
+            closed = token.type == "comment" or b"}" in data[token.end_byte : at]
+            start = token.end_byte if token.end_byte <= at and closed else before
+            if at - start > _FAR:
+                return None
+        pieces.append(data[start:at].decode("utf-8", "replace"))
+        total += at - start
+        text = blank_comments("".join(reversed(pieces)))
         item = _last_item(text)
-        if item is not None or start == 0:
-            return _OPEN_TABLE.sub(_shortened, _LONG_TABLE.sub("", text[item or 0 :]))
-        if reach >= _FAR:
-            return None
-        reach *= 8
+        if before == 0 or item:
+            return _OPEN_TABLE.sub(_shortened, _without_complete(text[item or 0 :]))
+        if before < start:
+            pieces.append(" ")
+        at, reach = before, 4 * reach
+    return None
+
+
+def _without_complete(text: str) -> str:
+    """A text without its complete blocks and tables: they tell nothing of what may follow them."""
+    found = 1
+    while found:
+        text, found = _COMPLETE.subn("", text)
+    return text
 
 
 def _shortened(table: re.Match[str]) -> str:

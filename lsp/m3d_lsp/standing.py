@@ -1,7 +1,8 @@
 """What the statements around a place of the text have made: the records of the blocks that it stands in.
 
 An item is run again, alone and only as far as the place asked for, with its variables as they are before it. So what
-is told of a block is what it is where it stands, whatever a later statement makes of it.
+is told of a block is what it is where it stands, whatever a later statement makes of it. Only of an item with a long
+table the values are those that it has as a whole, but for matrices.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from m3dc.evaluate import Evaluator, Made, value_at_first
 from m3dc.places import Places
 from m3dc.transform import IDENTITY, Transform
 from m3dc.values import Record, Value
+
+# Tables with more rows are not read again.
+LONG = 5000
 
 
 class Standing(NamedTuple):
@@ -58,8 +62,9 @@ def standing(analysis: Analysis, offset: int) -> Standing | None:
     if content.body is None or at > content.span[1] or _record(made) is None:
         return None
     body, blocks, member = _cut(content.body, at, in_transform=_type(content) == "TRANSFORM")
+    short = _without_long_tables(body)
     evaluator = Evaluator(Findings(), _variables_before(analysis, index))
-    run = evaluator.run([item._replace(content=content._replace(body=body))], frozenset())
+    run = evaluator.run([item._replace(content=content._replace(body=short))], frozenset())
     record = _record(run.made[0])
     assert record is not None
     records = [record]
@@ -68,7 +73,10 @@ def standing(analysis: Analysis, offset: int) -> Standing | None:
         if keyword != "TRANSFORM":
             inner = records[-1].parts[-1] if block.entry.adds else records[-1].nested[keyword]
             records.append(inner)
-    return Standing(item, made, tuple(records), tuple(blocks), member, records[-1].transform, analysis.places)
+    transform = records[-1].transform
+    if short is not body:
+        records = _as_made(item, made, blocks) or records
+    return Standing(item, made, tuple(records), tuple(blocks), member, transform, analysis.places)
 
 
 def in_scene(here: Standing) -> Transform:
@@ -103,6 +111,39 @@ def _cut(
             return (*body[:number], member._replace(body=inner)), [member, *blocks], found
         return (body[: number + 1] if in_transform else body), [], member
     return body, [], None
+
+
+def _without_long_tables(body: tuple[program.Member, ...]) -> tuple[program.Member, ...]:
+    """The same body, if it has none."""
+    kept: list[program.Member] = []
+    for member in body:
+        if isinstance(member, program.Block):
+            inner = _without_long_tables(member.body)
+            kept.append(member if inner is member.body else member._replace(body=inner))
+        elif not isinstance(member, program.Table) or member.bulk is None or len(member.bulk.offsets) <= LONG:
+            kept.append(member)
+    same = len(kept) == len(body) and all(new is old for new, old in zip(kept, body, strict=True))
+    return body if same else tuple(kept)
+
+
+def _as_made(item: program.Item, made: Made, blocks: list[program.Block]) -> list[Record] | None:
+    """The records of the blocks as the whole item has made them."""
+    record = _record(made)
+    assert record is not None
+    records = [record]
+    for block in blocks:
+        keyword, start, end = block.entry.keyword, *block.span
+        if keyword == "TRANSFORM":
+            continue
+        if block.entry.adds:
+            place = (item.base + start, item.base + end)
+            record = next((part for part in record.parts if part.span == place), None)
+        else:
+            record = record.nested.get(keyword)
+        if record is None:
+            return None
+        records.append(record)
+    return records
 
 
 def _variables_before(analysis: Analysis, index: int) -> dict[str, Value]:

@@ -38,6 +38,12 @@ async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
     assert [place["range"]["start"]["line"] for place in locations] == [1, 1, 3]
 
 
+async def test_a_file_without_a_scene_block(editor: Editor) -> None:
+    found = await lenses(editor, editor.open("\nSOLID { SPHERE { } }\n"))
+    titles = [(lens.range.start.line, lens.command.title) for lens in found if lens.command]
+    assert titles == [(0, "Preview"), (0, "Render"), (0, "Dump"), (1, "Dump")]
+
+
 async def test_they_can_be_switched_off(editor: Editor) -> None:
     scene = editor.open(SCENE)
     await editor.configure(scene, {"codeLens": {"enabled": False}})

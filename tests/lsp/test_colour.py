@@ -37,6 +37,7 @@ async def test_colours_of_statements_tables_and_variables(editor: Editor) -> Non
     [
         ("< 0.8, 0.7, 0.5 >", "< 0.251, 0.5, 1 >"),
         ("<0.8,0.7,0.5>", "<0.251,0.5,1>"),
+        ("<0.80, 0.70, 0.00>", "<0.25, 0.50, 1.00>"),
         ("< 0.80000, .7, 5e-1 >", "< 0.25098, 0.5, 1 >"),
         ("< 1, half, /* blue 1 */ 0 >", "< 0.251, 0.5, /* blue 1 */ 1 >"),
     ],
@@ -49,3 +50,11 @@ async def test_a_picked_colour_keeps_the_form(editor: Editor, before: str, after
     assert presentation.text_edit is not None
     assert presentation.text_edit.range == scene.range
     assert presentation.text_edit.new_text == presentation.label == after
+
+
+async def test_a_component_that_stays_is_left_as_it_is(editor: Editor) -> None:
+    scene = editor.open("VARIABLES { NUMBER dim; } dim = 0.25\nSCENE { BACKGROUND $[< dim, 5e-1, 0 >$] }\n")
+    color = types.Color(64 / 255, 0.5, 1.0, 1.0)
+    params = types.ColorPresentationParams(scene.identifier, color, scene.range)
+    (presentation,) = await editor.client.text_document_color_presentation_async(params)
+    assert presentation.label == "< dim, 5e-1, 1 >"

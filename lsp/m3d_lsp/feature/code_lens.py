@@ -1,5 +1,5 @@
-"""Code lenses: what can be done with the scene, above its SCENE block; the dump of each object; and above VARIABLES how
-often each variable is used.
+"""Code lenses: what can be done with the scene, above its SCENE block, or at the top of a file without one; the dump of
+each object; and above VARIABLES how often each variable is used.
 
 Answers `textDocument/codeLens`. The commands are the client's: `m3d.preview`, `m3d.render` and `m3d.dump` with a URI
 and a position, `m3d.showReferences` with the places of a variable besides.
@@ -34,6 +34,10 @@ def code_lens(snapshot: Snapshot, params: types.CodeLensParams) -> list[types.Co
 
 def _lenses(snapshot: Snapshot) -> Iterator[types.CodeLens]:
     known = names(snapshot.analysis)
+    blocks = [top.item.keyword.text for top in snapshot.analysis.items if isinstance(top.item, ast.Block)]
+    if blocks and "SCENE" not in blocks:
+        for title, command in OF_SCENE:
+            yield _lens(snapshot, (0, 0), title, command)
     for top in snapshot.analysis.items:
         match top.item:
             case ast.Block(keyword=keyword) if keyword.text in LANGUAGE.top:

@@ -6,18 +6,20 @@ Answers `textDocument/documentColor` and `textDocument/colorPresentation`.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from lsprotocol import types
+
+from m3dc.values import Vector
 
 from ..colours import colours
 from ..registry import request
 from ..snapshot import Snapshot
 
 _COMPONENT = re.compile(r"[+-]?\.?[0-9][0-9A-Za-z_.+-]*|[A-Za-z][A-Za-z0-9_]*")
-_DECIMALS = re.compile(r"\.(\d+)")
+_PLAIN = re.compile(r"[0-9]+\.[0-9]+")
 # As many as tell apart the 256 steps of a picker.
 LEAST_DECIMALS = 3
+SAME = 0.5 / 255
 
 
 @request(types.TEXT_DOCUMENT_DOCUMENT_COLOR, nothing=[])
@@ -34,25 +36,32 @@ def document_colour(snapshot: Snapshot, params: types.DocumentColorParams) -> li
 
 @request(types.TEXT_DOCUMENT_COLOR_PRESENTATION, nothing=[])
 def colour_presentation(snapshot: Snapshot, params: types.ColorPresentationParams) -> list[types.ColorPresentation]:
-    """The vector with the chosen colour: its spaces and comments stay, and its numbers have as many decimals as
-    before, or as a picker tells apart."""
-    before = snapshot.text.part(snapshot.text.span(params.range))
-    new = _rewritten(before, (params.color.red, params.color.green, params.color.blue))
+    """The vector with the chosen colour. Its spaces and comments stay, and every component that, to the eye, is what it
+    was; numbers have as many decimals as before, or as a picker tells apart."""
+    span = snapshot.text.span(params.range)
+    old = next((colour.value for colour in colours(snapshot.analysis) if colour.span == span), None)
+    new = _rewritten(snapshot.text.part(span), old, (params.color.red, params.color.green, params.color.blue))
     return [types.ColorPresentation(new, types.TextEdit(params.range, new))]
 
 
-def _rewritten(vector: str, color: tuple[float, float, float]) -> str:
+def _rewritten(vector: str, old: Vector | None, new: Vector) -> str:
     pieces = re.split(r"(/\*.*?\*/)", vector, flags=re.DOTALL)
-    decimals = max([LEAST_DECIMALS, *(len(match[1]) for match in _DECIMALS.finditer(vector))])
-    numbers: Iterator[str] = (_number(part, decimals) for part in color)
-    components = sum(len(_COMPONENT.findall(piece)) for piece in pieces[::2])
-    if components != len(color):
-        return f"< {', '.join(numbers)} >"
+    written = [match for piece in pieces[::2] for match in _COMPONENT.findall(piece)]
+    if len(written) != len(new):
+        return f"< {', '.join(_number(part, LEAST_DECIMALS) for part in new)} >"
+    decimals = {len(component.partition(".")[2]) for component in written}
+    # All with as many decimals, as in a column: so they stay.
+    fixed = len(decimals) == 1 and max(decimals) >= 2 and all(map(_PLAIN.fullmatch, written))
+    most = max(decimals) if fixed else max(LEAST_DECIMALS, *decimals)
+    numbers = iter(
+        before if old is not None and abs(after - old[place]) < SAME else _number(after, most, fixed=fixed)
+        for place, (before, after) in enumerate(zip(written, new, strict=True))
+    )
     pieces[::2] = [_COMPONENT.sub(lambda _: next(numbers), piece) for piece in pieces[::2]]
     return "".join(pieces)
 
 
-def _number(value: float, decimals: int) -> str:
-    """Without the zeros at its end: 0.5, 1."""
+def _number(value: float, decimals: int, *, fixed: bool = False) -> str:
+    """Without the zeros at its end, unless all have as many decimals: 0.5, 1."""
     text = f"{value:.{decimals}f}"
-    return text.rstrip("0").rstrip(".")
+    return text if fixed else text.rstrip("0").rstrip(".")

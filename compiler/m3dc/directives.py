@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from .diagnostics import Diagnostic
 from .source import Source
 
-_ALLOW = re.compile(rb"/\*\s*m3d:\s*allow\s+([A-Z0-9,\s]+?)\s*\*/")
+ALLOW = re.compile(rb"/\*\s*m3d:\s*allow\s+([A-Z0-9,\s]+?)\s*\*/")
 _COMMENT = re.compile(rb"\s*/\*(?:(?!/\*|\*/).)*\*/", re.DOTALL)
 
 
@@ -20,12 +20,12 @@ def without_allowed(diagnostics: list[Diagnostic], source: Source) -> Iterable[D
     """The diagnostics but for those that the text allows."""
     if all(diagnostic.severity == "error" for diagnostic in diagnostics) or b"m3d:" not in source.data:
         return diagnostics
-    heading = _heading(source.data)
+    top = heading_end(source.data)
     everywhere: set[str] = set()
     by_line: dict[int, set[str]] = {}
-    for match in _ALLOW.finditer(source.data):
+    for match in ALLOW.finditer(source.data):
         codes = set(match[1].decode().replace(",", " ").split())
-        if match.end() <= heading:
+        if match.end() <= top:
             everywhere |= codes
         else:
             line = source.position(match.end()).line
@@ -39,7 +39,7 @@ def without_allowed(diagnostics: list[Diagnostic], source: Source) -> Iterable[D
     return (diagnostic for diagnostic in diagnostics if not allowed(diagnostic))
 
 
-def _heading(data: bytes) -> int:
+def heading_end(data: bytes) -> int:
     """Where the comments at the beginning of the file end."""
     end = 0
     while match := _COMMENT.match(data, end):

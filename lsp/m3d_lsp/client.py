@@ -9,7 +9,8 @@ from lsprotocol import types
 
 @dataclass(frozen=True)
 class Client:
-    """`images` is whether pictures in Markdown are shown as such and not as their text."""
+    """`images` is whether pictures in Markdown are shown as such and not as their text; `resolves_edits` whether the
+    edits of a code action can be asked for when it is chosen."""
 
     hover_markdown: bool = False
     completion_markdown: bool = False
@@ -18,6 +19,7 @@ class Client:
     snippets: bool = False
     insert_replace: bool = False
     label_offsets: bool = False
+    resolves_edits: bool = False
 
     @classmethod
     def of(cls, capabilities: types.ClientCapabilities) -> Client:
@@ -26,6 +28,7 @@ class Client:
         item = document.completion.completion_item if document.completion else None
         signature = document.signature_help.signature_information if document.signature_help else None
         parameter = signature.parameter_information if signature else None
+        resolve = document.code_action.resolve_support if document.code_action else None
         general = capabilities.general
         return cls(
             hover_markdown=bool(document.hover and _markdown(document.hover.content_format)),
@@ -35,6 +38,7 @@ class Client:
             snippets=bool(item and item.snippet_support),
             label_offsets=bool(parameter and parameter.label_offset_support),
             insert_replace=bool(item and item.insert_replace_support),
+            resolves_edits=bool(resolve and "edit" in resolve.properties),
         )
 
 

@@ -1,6 +1,7 @@
 """What the server answers, a module a feature. Adding one is a module, and its name below."""
 
 from . import (
+    code_actions,
     code_lens,
     colour,
     completion,
@@ -24,6 +25,7 @@ from . import (
 )
 
 MODULES = (
+    code_actions,
     code_lens,
     colour,
     completion,

@@ -1,0 +1,97 @@
+"""What a code action is, and where it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import NamedTuple
+
+from lsprotocol import types
+
+from m3dc import Diagnostic, ast
+from m3dc.analysis import Analysis
+
+from ...snapshot import Snapshot
+from ...text import Span
+
+# Text in place of a range of bytes. Edits do not overlap; those that insert at one place do so in their order.
+Edit = tuple[Span, str]
+
+
+class Action(NamedTuple):
+    """`edits` make the change; where it takes long to find them, `later` does, once the action is chosen. `mends` are
+    the diagnostics that it does away with."""
+
+    title: str
+    kind: types.CodeActionKind
+    edits: list[Edit]
+    mends: tuple[Diagnostic, ...] = ()
+    preferred: bool = False
+    later: Callable[[], list[Edit]] | None = None
+
+
+class Site:
+    """The place at which actions are asked for: a range of bytes, empty for a cursor."""
+
+    def __init__(self, snapshot: Snapshot, span: Span) -> None:
+        self.snapshot = snapshot
+        self.span = span
+        self.data = snapshot.text.data
+
+    @property
+    def analysis(self) -> Analysis:
+        return self.snapshot.analysis
+
+    @cached_property
+    def found(self) -> tuple[Diagnostic, ...]:
+        """The diagnostics at the place."""
+        start, end = self.span
+        return tuple(d for d in self.analysis.diagnostics if d.span[0] <= end and d.span[1] >= start)
+
+    @cached_property
+    def top(self) -> ast.TopLevel | None:
+        """The top-level item that holds the place."""
+        return next((top for top in self.analysis.items if _holds(self._real(top, top.item.span), self.span)), None)
+
+    @cached_property
+    def path(self) -> tuple[ast.Item, ...]:
+        """The items that hold the place, from the top-level one inwards."""
+        if self.top is None:
+            return ()
+        found: list[ast.Item] = [self.top.item]
+        while True:
+            body = found[-1].body if isinstance(found[-1], (ast.Block, ast.Assignment)) else None
+            inner = next((i for i in (body.items if body else ()) if _holds(self.real(i.span), self.span)), None)
+            if inner is None:
+                return tuple(found)
+            found.append(inner)
+
+    @cached_property
+    def is_sound(self) -> bool:
+        """Whether the top-level item has no error."""
+        if self.top is None:
+            return False
+        whole = self.real(self.top.item.span)
+        errors = (d.span for d in self.analysis.diagnostics if d.severity == "error")
+        return not any(start < whole[1] and end > whole[0] for start, end in errors)
+
+    def real(self, span: Span) -> Span:
+        """A range of the top-level item as one of the text."""
+        assert self.top is not None
+        return self._real(self.top, span)
+
+    def text(self, span: Span) -> str:
+        """The text in a range of bytes."""
+        return self.snapshot.text.part(span)
+
+    def at(self, offset: int) -> Site:
+        """The same document at another place."""
+        return Site(self.snapshot, (offset, offset))
+
+    @staticmethod
+    def _real(top: ast.TopLevel, span: Span) -> Span:
+        return span[0] + top.start, span[1] + top.start
+
+
+def _holds(outer: Span, inner: Span) -> bool:
+    return outer[0] <= inner[0] and inner[1] <= outer[1]

@@ -1,0 +1,67 @@
+"""Writing the number of rows that a table has where it says another."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lsprotocol import types
+
+import m3dc
+from m3dc import ast, program
+
+from .action import Action, Edit, Site
+
+_NUMERAL = re.compile(rb"[^\s<>,{}/]+")
+
+
+def find(site: Site) -> Iterator[Action]:
+    """For a table here of which the number of rows is wrong."""
+    for diagnostic in site.found:
+        if diagnostic.code not in ("M3D0405", "M3D0406"):
+            continue
+        place = site.at(diagnostic.span[0])
+        table = place.path[-1] if place.path else None
+        rows = _rows(place) if isinstance(table, ast.Table) else None
+        if rows is None or not isinstance(table, ast.Table):
+            continue
+        start = place.real(table.bulk or table.span)[0] if table.bulk else place.real(table.entries[0].span)[0]
+        match = _NUMERAL.match(site.data, start)
+        if match is None or not match[0].isdigit():
+            continue
+        edit: Edit = match.span(), str(rows)
+        if _is_safe(site, edit):
+            title = f"Write that there are {rows} {table.keyword.text}"
+            yield Action(title, types.CodeActionKind.QuickFix, [edit], (diagnostic,))
+
+
+def _rows(place: Site) -> int | None:
+    """How many rows the table has, if one number tells it."""
+    assert place.top is not None
+    content = next((item.content for item in place.analysis.program if item.start == place.top.start), None)
+    if not isinstance(content, (program.Assignment, program.Block)) or content.body is None:
+        return None
+    table = _in(content.body, place.path[-1].span)
+    if table is None or len(table.entry.head) != 1:
+        return None
+    return len(table.bulk.offsets) if table.bulk is not None else len(table.rows)
+
+
+def _in(body: tuple[program.Member, ...], span: tuple[int, int]) -> program.Table | None:
+    for member in body:
+        if isinstance(member, program.Table) and member.span == span:
+            return member
+        if isinstance(member, program.Block) and (found := _in(member.body, span)) is not None:
+            return found
+    return None
+
+
+def _is_safe(site: Site, edit: Edit) -> bool:
+    """Whether the rows that were not read so far bring no more errors than the one that goes."""
+    (start, end), text = edit
+    mended = m3dc.compile(site.data[:start] + text.encode() + site.data[end:])
+    return _errors(mended.diagnostics) <= _errors(site.analysis.diagnostics)
+
+
+def _errors(diagnostics: tuple[m3dc.Diagnostic, ...]) -> int:
+    return sum(diagnostic.severity == "error" for diagnostic in diagnostics)

@@ -1,0 +1,51 @@
+"""Sorting the points of a PROFILE by their elevation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from lsprotocol import types
+
+from m3dc import ast
+
+from ...standing import standing
+from .action import Action, Edit, Site
+
+KEYWORD = "PROFILE"
+
+
+def find(site: Site) -> Iterator[Action]:
+    """For a table at the place that is not sorted."""
+    table = site.path[-1] if site.path else None
+    if not isinstance(table, ast.Table) or table.keyword.text != KEYWORD:
+        return
+    edit = _sorted(site, table)
+    if edit is not None:
+        mends = tuple(d for d in site.analysis.diagnostics if d.code == "M3D0411" and _is_in(d.span, site, table))
+        kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
+        yield Action("Sort the points from low to high", kind, [edit], mends, bool(mends))
+
+
+def _is_in(span: tuple[int, int], site: Site, table: ast.Table) -> bool:
+    start, end = site.real(table.span)
+    return start <= span[0] < end
+
+
+def _sorted(site: Site, table: ast.Table) -> Edit | None:
+    """The rows in their new order, each with the comments behind it. None if they are in order, or can not be read."""
+    start, end = site.real(table.span)
+    around = standing(site.analysis, end - 1)
+    value = None if around is None else around.innermost.tables.get(KEYWORD)
+    if value is None or site.analysis.places.span(value.span)[0] != start or len(value.rows) < 2:
+        return None
+    order = np.argsort(value.rows[:, 0], kind="stable")
+    if (np.diff(order) > 0).all():
+        return None
+    starts = [start + int(offset) for offset in value.offsets]
+    pieces = [site.data[a:b] for a, b in zip(starts, [*starts[1:], end - 1], strict=True)]
+    rows = [piece.rstrip() for piece in pieces]
+    blanks = [piece[len(row) :] for piece, row in zip(pieces, rows, strict=True)]
+    places: list[int] = order.tolist()
+    text = b"".join(rows[index] + blank for index, blank in zip(places, blanks, strict=True))
+    return (starts[0], end - 1), text.decode("utf-8", "replace")

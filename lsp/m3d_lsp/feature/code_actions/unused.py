@@ -1,0 +1,50 @@
+"""Removing a variable that nothing uses: its declaration, and the assignments to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lsprotocol import types
+
+from m3dc import ast
+from m3dc.cut import cut
+
+from ...names import Role, names
+from ...text import Span
+from .action import Action, Site
+
+
+def find(site: Site) -> Iterator[Action]:
+    """For each unused variable here."""
+    for diagnostic in site.found:
+        name = site.text(diagnostic.span)
+        if diagnostic.code == "M3D0503" and not any(o.role is Role.USE for o in names(site.analysis).of(name)):
+            edits = [(span, "") for span in places_of(site, name)]
+            title = f"Remove the unused variable {name}"
+            yield Action(title, types.CodeActionKind.QuickFix, edits, (diagnostic,), True)
+
+
+def places_of(site: Site, name: str) -> list[Span]:
+    """What to cut out so that a variable is neither declared nor assigned to."""
+    found: list[Span] = []
+    for top in site.analysis.items:
+        item = top.item
+        if isinstance(item, ast.Assignment) and item.target.text == name:
+            found.append(cut(site.data, top.start + item.span[0], top.start + item.span[1]))
+        elif isinstance(item, ast.Variables):
+            places = [(d, n) for d in item.declarations for n, given in enumerate(d.names) if given.text == name]
+            if len(places) == sum(len(d.names) for d in item.declarations):
+                found.append(cut(site.data, top.start, top.start + item.span[1]))
+            else:
+                found += [_name(site, top.start, declaration, number) for declaration, number in places]
+    return found
+
+
+def _name(site: Site, start: int, declaration: ast.Declaration, number: int) -> Span:
+    """One name of a declaration, with its comma; or the declaration."""
+    given = declaration.names
+    if len(given) == 1:
+        return cut(site.data, start + declaration.span[0], start + declaration.span[1])
+    if number:
+        return start + given[number - 1].span[1], start + given[number].span[1]
+    return start + given[0].span[0], start + given[1].span[0]

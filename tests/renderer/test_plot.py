@@ -1,7 +1,6 @@
 """The data of figures: the profile, the fan of rays and what they pass, the transfer characteristic."""
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -22,7 +21,7 @@ RULER = 20.0  # m
 def ruler_scene(distance, rows=401):
     """The merman's air and observer, and a ruler at a distance whose brightness is the height / RULER."""
     scene = SceneBuilder((1, 0, 2.1), (0, 0, 2.1), 1.5, 3, rows, aspect=1.2 * 200 / 320 * 3 / rows)
-    scene.set(ambient=replace(scene.scene.ambient, intensity=1.0, color=(1.0, 1.0, 1.0)))
+    scene.set(ambient=scene.scene.ambient._replace(intensity=1.0, color=(1.0, 1.0, 1.0)))
     scene.mirage(MERMAN_PROFILE, segments=300, elevation=100.0)
     stripes = (TextureKind.VBLEND, {"color": (1.0, 1.0, 1.0)})
     wall = scene.solid(color=(0.0, 0.0, 0.0), ambient=1.0, diffuse=0.0, textures=[stripes])

@@ -15,6 +15,7 @@ from tree_sitter import Node, Tree
 from tree_sitter_m3d.table import LANGUAGE
 
 from .diagnostics import Diagnostic, Findings
+from .difference import Difference
 from .format_atoms import FormatError, read
 from .format_layout import Layout
 from .format_rows import Change
@@ -150,17 +151,8 @@ def _line_end(data: bytes) -> bytes:
 
 def _smallest(data: bytes, change: Change) -> Edit:
     start, end, text = change
-    old = data[start:end]
-    same = _alike(old, text)
-    alike = _alike(old[same:][::-1], text[same:][::-1])
-    return Edit((start + same, end - alike), text[same : len(text) - alike].decode("ascii"))
-
-
-def _alike(one: bytes, other: bytes) -> int:
-    """How many bytes two texts have in common at their beginnings."""
-    if one.startswith(other) or other.startswith(one):
-        return min(len(one), len(other))
-    return next(number for number, (a, b) in enumerate(zip(one, other, strict=False)) if a != b)
+    same, old_end, new_end = Difference.between(data[start:end], text)
+    return Edit((start + same, start + old_end), text[same:new_end].decode("ascii"))
 
 
 def _lines(data: bytes, first: int, last: int) -> Span:

@@ -18,6 +18,7 @@ from tree_sitter_m3d.table import LANGUAGE
 
 from . import ast, long_tables
 from .diagnostics import Diagnostic, Findings, Fix
+from .difference import Difference
 from .ir import Span
 from .places import REACH, Places
 from .source import Source
@@ -35,8 +36,6 @@ _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 # Diagnostics after which a text is given up: it is no scene, and nobody reads more.
 MOST_FOUND = 10_000
 MOST_FAULTS = 200  # of form, which are dearer to explain
-
-PIECE = 1 << 16
 
 # A text of which, long tables aside, so many bytes are judged by its head first.
 VERY_LONG = 4_000_000
@@ -138,7 +137,7 @@ class Parsed:
         self._tree_data = b""
         self._whole = False  # whether the tree was made of the whole text
         self._items_data = b""
-        self._change = _Change(0, 0, 0)
+        self._difference = Difference(0, 0, 0)
         self._lost: dict[bytes, list[_Read]] = {}  # by their text, the items that stood where the text has changed
         self._before: dict[int, _Read] = {}
         self._now: dict[int, _Read] = {}
@@ -150,7 +149,7 @@ class Parsed:
         tree = None
         whole = len(outside) == 1
         if self._tree is not None and self._whole and whole and not self._tree.root_node.has_error:
-            self._tree.edit(*_change(self._tree_data, data).points(self._tree_data, data))
+            self._tree.edit(*_edit(self._tree_data, data))
             tree = Parser(_GRAMMAR).parse(data, self._tree)
         if tree is None or tree.root_node.has_error:
             tree = _tree(data, outside)
@@ -159,10 +158,10 @@ class Parsed:
 
     def begin(self, data: bytes) -> None:
         """Start to go through the items of a text."""
-        change = self._change = _change(self._items_data, data)
+        difference = self._difference = Difference.between(self._items_data, data)
         self._lost = {}
         for start, read in self._now.items():
-            if start < change.old_end and start + read.length > change.start:
+            if start < difference.old_end and start + read.length > difference.start:
                 self._lost.setdefault(self._items_data[start : start + read.length], []).append(read)
         self._items_data = data
         self._before, self._now = self._now, {}
@@ -187,14 +186,13 @@ class Parsed:
 
     def _same(self, start: int, end: int) -> _Read | None:
         """What was read of the same stretch of text, or else of one with the same text."""
-        change = self._change
-        if end <= change.start:
-            read = self._before.get(start)
-        elif start >= change.new_end:
-            read = self._before.get(start - change.new_end + change.old_end)
-        else:
+        difference = self._difference
+        if end > difference.start and start < difference.new_end:
             alike = self._lost.get(self._items_data[start:end])
             return alike.pop() if alike else None
+        # What is deleted right before an item ends where it starts: the item itself is behind the difference.
+        moved = 0 if end <= difference.start else difference.old_end - difference.new_end
+        read = self._before.get(start + moved)
         return read if read is not None and read.length == end - start else None
 
 
@@ -207,40 +205,10 @@ class _Read(NamedTuple):
     found: tuple[Diagnostic, ...]
 
 
-class _Change(NamedTuple):
-    """The stretch in which a text differs from an older one."""
-
-    start: int
-    old_end: int
-    new_end: int
-
-    def points(self, old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
-        """The same as tree-sitter wants it."""
-        points = _point(old, self.start), _point(old, self.old_end), _point(new, self.new_end)
-        return self.start, self.old_end, self.new_end, *points
-
-
-def _change(old: bytes, new: bytes) -> _Change:
-    start = _alike(old, new, 0, min(len(old), len(new)))
-    # Mirrored, the end of a text is its beginning; what is alike there does not reach into what is alike at the start.
-    tail = _alike(old, new, start, min(len(old), len(new)), mirrored=True)
-    return _Change(start, len(old) - tail, len(new) - tail)
-
-
-def _alike(one: bytes, other: bytes, used: int, shorter: int, *, mirrored: bool = False) -> int:
-    """How many of the first bytes of two texts, or mirrored of the last, are the same; `used` of them do not count.
-
-    Looked at in pieces that stay in the processor's cache, and the one that differs again in smaller ones."""
-    alike, most = 0, shorter - used
-    size = PIECE
-    while size and alike < most:
-        length = min(size, most - alike)
-        ends = (len(one) - alike, len(other) - alike) if mirrored else (alike + length, alike + length)
-        if one[ends[0] - length : ends[0]] == other[ends[1] - length : ends[1]]:
-            alike += length
-        else:
-            size = min(size, length) // 2
-    return alike
+def _edit(old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
+    """The difference of two texts as tree-sitter wants it: in bytes, and in rows and columns."""
+    start, old_end, new_end = Difference.between(old, new)
+    return start, old_end, new_end, _point(old, start), _point(old, old_end), _point(new, new_end)
 
 
 def _point(data: bytes, offset: int) -> Point:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
-from .moved import Moved
+from m3dc.difference import Difference
+
 from .snapshot import Snapshot
 from .text import Span, Text
 
@@ -29,16 +30,16 @@ class Good:
         self._text = text
 
     @cached_property
-    def _moved(self) -> Moved:
-        return Moved.between(self.snapshot.text.data, self._text.data)
+    def _difference(self) -> Difference:
+        return Difference.between(self.snapshot.text.data, self._text.data)
 
     def offset(self, position: types.Position) -> int:
         """The byte of the snapshot's text at a position of the client's."""
-        return self._moved.back(self._text.offset(position))
+        return self._difference.back(self._text.offset(position))
 
     def range(self, span: Span) -> dict[str, Any]:
         """LSP's range of the client's text, as JSON, of bytes of the snapshot's."""
-        return plain(self._text.range(self._moved.span(span)))
+        return plain(self._text.range(self._difference.span(span)))
 
 
 def plain(range_: types.Range) -> dict[str, Any]:

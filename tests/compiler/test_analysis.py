@@ -69,6 +69,8 @@ edits = st.lists(
 @example([(SCENE.index("SOLID thing"), 12, []), (0, 0, ["\n"])])  # the others of its like stay
 @example([(SCENE.index("SCENE"), 0, ["SCENE { }"]), (SCENE.index("SCENE"), 9, [])])  # the first counts, and goes
 @example([(0, 0, ["VARIABLES { NUMBER more; }"])])
+# One comes to stand where another of its length was.
+@example([(SCENE.index("turn ="), 0, ["size = 7 more = 7 "]), (SCENE.index("turn ="), 9, [])])
 def test_after_edits_all_is_as_from_the_start(changes: list[tuple[int, int, list[str]]]) -> None:
     analyser = Analyser()
     text = SCENE

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
@@ -27,6 +28,7 @@ from .syntax import Parsed, parse
 T = TypeVar("T")
 
 
+@dataclass(frozen=True, eq=False)
 class Analysis:
     """What each stage made of one text.
 
@@ -36,23 +38,13 @@ class Analysis:
     bytes of the text.
     """
 
-    def __init__(
-        self,
-        source: Source,
-        tree: Tree,
-        items: tuple[ast.TopLevel, ...],
-        program: tuple[program.Item, ...],
-        world: World,
-        places: Places,
-        diagnostics: tuple[Diagnostic, ...],
-    ) -> None:
-        self.source = source
-        self.tree = tree
-        self.items = items
-        self.program = program
-        self.world = world
-        self.places = places
-        self.diagnostics = diagnostics
+    source: Source
+    tree: Tree
+    items: tuple[ast.TopLevel, ...]
+    program: tuple[program.Item, ...]
+    world: World
+    places: Places
+    diagnostics: tuple[Diagnostic, ...]
 
     @cached_property
     def ok(self) -> bool:

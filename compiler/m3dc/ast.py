@@ -101,3 +101,7 @@ class TopLevel(NamedTuple):
     start: int
     base: int
     item: Item
+
+    def place(self, span: Span) -> Span:
+        """A span of the item as one of the whole text."""
+        return span[0] + self.start, span[1] + self.start

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,11 +29,12 @@ def lint(world: World, findings: Findings, steps: Steps | None = None) -> None:
     looked at for what is in themselves."""
     for look in SCENE_LINTS:
         look(world, findings)
+    nothing: Ledger[object] = Ledger()  # an object's lints ask for nothing but the object
     for thing in (*world.solids, *world.lights):
         if steps is None:
             _lint_object(thing, findings)
         else:
-            steps.do(id(thing), thing, partial(_lint_object, thing, findings), findings, _NOTHING)
+            steps.do(id(thing), thing, partial(_lint_object, thing, findings), findings, nothing)
 
 
 def _lint_object(thing: Record, findings: Findings) -> None:
@@ -176,4 +176,3 @@ OBJECT_LINTS: tuple[Callable[[Record, Findings], None], ...] = (
     _unused_vertices,
     _wrong_side,
 )
-_NOTHING: Ledger[Any] = Ledger()  # an object's lints ask for nothing but the object

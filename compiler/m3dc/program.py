@@ -4,6 +4,7 @@ Whoever reads it need not ask whether a keyword may stand where it stands, wheth
 whether a name is declared with the right type: what did not pass is not in it.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple, TypeAlias
 
 from tree_sitter_m3d import TableData
@@ -74,6 +75,20 @@ class Assignment(NamedTuple):
 
 
 Content: TypeAlias = tuple[Declaration, ...] | Assignment | Block
+
+
+def leaves(content: Content) -> Iterator[Statement | Table]:
+    """Every statement and table of an item, however deep it stands, in the order of the text."""
+    if isinstance(content, (Assignment, Block)):
+        yield from _leaves(content.body or ())
+
+
+def _leaves(body: tuple[Member, ...]) -> Iterator[Statement | Table]:
+    for member in body:
+        if isinstance(member, Block):
+            yield from _leaves(member.body)
+        else:
+            yield member
 
 
 class Item(NamedTuple):

@@ -69,22 +69,14 @@ def color_variables(analysis: Analysis) -> frozenset[str]:
 
 def _uses(analysis: Analysis) -> Iterator[_Use]:
     for item in analysis.program:
-        content = item.content
-        if isinstance(content, (program.Block, program.Assignment)):
-            for argument in _in_body(content.body or ()):
-                yield _Use(argument, item.start)
-
-
-def _in_body(body: tuple[program.Member, ...]) -> Iterator[ast.Vector | ast.Name]:
-    for member in body:
-        match member:
-            case program.Block():
-                yield from _in_body(member.body)
-            case program.Statement():
-                yield from _of_kind(member.entry.arguments, member.arguments)
-            case program.Table():
-                for row in member.rows:
-                    yield from _of_kind(member.entry.row, row)
+        for member in program.leaves(item.content):
+            lists = (
+                [(member.entry.arguments, member.arguments)]
+                if isinstance(member, program.Statement)
+                else [(member.entry.row, row) for row in member.rows]
+            )
+            for expected, given in lists:
+                yield from (_Use(argument, item.start) for argument in _of_kind(expected, given))
 
 
 def _of_kind(expected: tuple[Argument, ...], given: tuple[ast.Argument, ...]) -> Iterator[ast.Vector | ast.Name]:
@@ -106,20 +98,9 @@ def _colour(use: _Use, known: Names) -> Colour | None:
 def _in_tables(analysis: Analysis) -> Iterator[Colour]:
     """The colours in tables that hold nothing but numbers."""
     for item in analysis.program:
-        content = item.content
-        if not isinstance(content, (program.Block, program.Assignment)):
-            continue
-        for table in _tables(content.body or ()):
-            if any(argument.kind == KIND for argument in table.entry.row):
-                yield from _in_rows(table, item.start, analysis.source.data)
-
-
-def _tables(body: tuple[program.Member, ...]) -> Iterator[program.Table]:
-    for member in body:
-        if isinstance(member, program.Block):
-            yield from _tables(member.body)
-        elif isinstance(member, program.Table):
-            yield member
+        for member in program.leaves(item.content):
+            if isinstance(member, program.Table) and any(argument.kind == KIND for argument in member.entry.row):
+                yield from _in_rows(member, item.start, analysis.source.data)
 
 
 def _in_rows(table: program.Table, item: int, data: bytes) -> Iterator[Colour]:

@@ -52,9 +52,9 @@ class Names:
         self._by_name: dict[str, list[Occurrence]] = {}
         for top in analysis.items:
             for occurrence in _names_of(top.item):
-                placed = occurrence._replace(span=_moved(occurrence.span, top.start))
+                placed = occurrence._replace(span=top.place(occurrence.span))
                 if occurrence.type_span is not None:
-                    placed = placed._replace(type_span=_moved(occurrence.type_span, top.start))
+                    placed = placed._replace(type_span=top.place(occurrence.type_span))
                 self.occurrences.append(placed)
                 self._by_name.setdefault(occurrence.name, []).append(placed)
 
@@ -116,10 +116,6 @@ class Names:
                 end, target_end = item.start + content.span[1], item.start + content.target.span[1]
                 found.setdefault(content.target.text, []).append(_Assigned(item.start, target_end, end, made.value))
         return found
-
-
-def _moved(span: Span, start: int) -> Span:
-    return span[0] + start, span[1] + start
 
 
 @lru_cache(maxsize=8)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import inspect
 import logging
+import pkgutil
 from collections.abc import Awaitable, Callable
+from importlib import import_module
 from importlib.metadata import version
 from typing import Any, cast
 
@@ -16,7 +18,6 @@ from . import feature, view
 from .document import Document
 from .documents import Documents
 from .feature import diagnostics
-from .preview import requests as preview
 from .preview.previews import Previews
 from .protocol import Protocol
 from .registry import REQUESTS, SERVER_REQUESTS, RefusalError, Request, ServerRequest
@@ -35,15 +36,9 @@ class Server(LanguageServer):
         super().__init__("m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
         self.documents = Documents(self._looked_at)
         self.previews = Previews()
-        self._closing: list[Callable[[], None]] = [self.previews.stop]
-
-    def on_close(self, close: Callable[[], None]) -> None:
-        """Have something called when the server ends."""
-        self._closing.append(close)
 
     def shutdown(self) -> None:
-        for close in self._closing:
-            close()
+        self.previews.stop()
         self.documents.stop()
         super().shutdown()
 
@@ -108,8 +103,11 @@ class Server(LanguageServer):
 def make_server() -> Server:
     """A server with every feature."""
     server = Server()
-    for module in (*feature.MODULES, *view.MODULES, preview):
-        log.debug("feature %s", module.__name__)
+    # Importing a module declares what it answers.
+    for package in (feature, view):
+        for module in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+            import_module(module.name)
+    import_module(".preview.requests", __package__)
     for entry in REQUESTS:
         server.feature(entry.method, entry.options)(_answer(server, entry))
     for entry in SERVER_REQUESTS:

@@ -32,9 +32,5 @@ class Snapshot:
         """A range of bytes as LSP's."""
         return self.text.range(span)
 
-    def place(self, span: Span) -> types.Range:
-        """LSP's range of a record's or a value's span (see m3dc.places)."""
-        return self.text.range(self.analysis.places.span(span))
-
     def location(self, span: Span) -> types.Location:
         return types.Location(self.uri, self.range(span))

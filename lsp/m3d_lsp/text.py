@@ -10,8 +10,9 @@ from lsprotocol import types
 from numpy.typing import NDArray
 
 from m3dc import Source
+from m3dc.ir import Span
 
-Span = tuple[int, int]
+__all__ = ["Span", "Text"]
 
 
 class Text:

@@ -41,22 +41,21 @@ def _lenses(snapshot: Snapshot) -> Iterator[types.CodeLens]:
     for top in snapshot.analysis.items:
         match top.item:
             case ast.Block(keyword=keyword) if keyword.text in LANGUAGE.top:
-                place = keyword.span[0] + top.start, keyword.span[1] + top.start
+                place = top.place(keyword.span)
                 for title, command in OF_SCENE if keyword.text == "SCENE" else OF_OBJECT:
                     yield _lens(snapshot, place, title, command)
             case ast.Variables():
                 for declaration in top.item.declarations:
                     for name in declaration.names:
-                        yield _references(snapshot, known, name, top.start)
+                        yield _references(snapshot, known, name.text, top.place(name.span))
             case _:
                 pass
 
 
-def _references(snapshot: Snapshot, known: Names, name: ast.Name, start: int) -> types.CodeLens:
-    place = name.span[0] + start, name.span[1] + start
-    found = [occurrence for occurrence in known.of(name.text) if occurrence.role is not Role.DECLARATION]
+def _references(snapshot: Snapshot, known: Names, name: str, place: Span) -> types.CodeLens:
+    found = [occurrence for occurrence in known.of(name) if occurrence.role is not Role.DECLARATION]
     uses = sum(occurrence.role is Role.USE for occurrence in found)
-    title = f"{name.text}: used {_times(uses)}"
+    title = f"{name}: used {_times(uses)}"
     if len(found) > uses:
         title += f", set {_times(len(found) - uses)}"
     ranges = snapshot.text.ranges([occurrence.span for occurrence in found])

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @server_request(types.INITIALIZED)
 async def start(server: Server, params: types.InitializedParams) -> None:
-    """Settings may be sent at once, as `initializationOptions`, or can be asked for."""
+    """Ask for the settings, where the client can be asked."""
     del params
     await server.fetch_settings()
 

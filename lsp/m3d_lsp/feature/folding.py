@@ -45,8 +45,7 @@ def _with_lines(text: Text, spans: list[Span]) -> Iterator[tuple[int, int, int, 
 def _blocks(snapshot: Snapshot) -> Iterator[Span]:
     """All items with braces, outer ones first."""
     for top in snapshot.analysis.items:
-        for start, end in _braced(top.item):
-            yield start + top.start, end + top.start
+        yield from map(top.place, _braced(top.item))
 
 
 def _braced(item: ast.Item) -> Iterator[Span]:

@@ -1,5 +1,1 @@
 """Views of what becomes of a scene, for read-only documents beside it (docs/protocol.md), a module a view."""
-
-from . import dump, ir_tree, syntax_tree
-
-MODULES = (dump, ir_tree, syntax_tree)

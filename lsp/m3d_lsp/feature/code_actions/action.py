@@ -51,7 +51,7 @@ class Site:
     @cached_property
     def top(self) -> ast.TopLevel | None:
         """The top-level item that holds the place."""
-        return next((top for top in self.analysis.items if _holds(self._real(top, top.item.span), self.span)), None)
+        return next((top for top in self.analysis.items if _holds(top.place(top.item.span), self.span)), None)
 
     @cached_property
     def path(self) -> tuple[ast.Item, ...]:
@@ -78,7 +78,7 @@ class Site:
     def real(self, span: Span) -> Span:
         """A range of the top-level item as one of the text."""
         assert self.top is not None
-        return self._real(self.top, span)
+        return self.top.place(span)
 
     def text(self, span: Span) -> str:
         """The text in a range of bytes."""
@@ -87,10 +87,6 @@ class Site:
     def at(self, offset: int) -> Site:
         """The same document at another place."""
         return Site(self.snapshot, (offset, offset))
-
-    @staticmethod
-    def _real(top: ast.TopLevel, span: Span) -> Span:
-        return span[0] + top.start, span[1] + top.start
 
 
 def _holds(outer: Span, inner: Span) -> bool:

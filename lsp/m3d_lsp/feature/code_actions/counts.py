@@ -39,21 +39,12 @@ def _rows(place: Site) -> int | None:
     """How many rows the table has, if one number tells it."""
     assert place.top is not None
     content = next((item.content for item in place.analysis.program if item.start == place.top.start), None)
-    if not isinstance(content, (program.Assignment, program.Block)) or content.body is None:
+    if content is None:
         return None
-    table = _in(content.body, place.path[-1].span)
-    if table is None or len(table.entry.head) != 1:
+    table = next((leaf for leaf in program.leaves(content) if leaf.span == place.path[-1].span), None)
+    if not isinstance(table, program.Table) or len(table.entry.head) != 1:
         return None
     return len(table.bulk.offsets) if table.bulk is not None else len(table.rows)
-
-
-def _in(body: tuple[program.Member, ...], span: tuple[int, int]) -> program.Table | None:
-    for member in body:
-        if isinstance(member, program.Table) and member.span == span:
-            return member
-        if isinstance(member, program.Block) and (found := _in(member.body, span)) is not None:
-            return found
-    return None
 
 
 def _is_safe(site: Site, edit: Edit) -> bool:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
 
 import tree_sitter_m3d
+from tree_sitter_m3d.comments import outermost
 from tree_sitter_m3d.table import LANGUAGE
 
 from . import ast, long_tables
@@ -227,16 +228,8 @@ _DELIMITER = re.compile(rb"/\*|\*/")
 
 def _unclosed_comment(data: bytes, outside: list[Span]) -> int | None:
     """Where the comment opens that is never closed, if any: the outermost one."""
-    depth = 0
-    opened = 0
-    for match in (match for start, end in outside for match in _DELIMITER.finditer(data, start, end)):
-        if match.group() == b"/*":
-            if depth == 0:
-                opened = match.start()
-            depth += 1
-        elif depth:
-            depth -= 1
-    return opened if depth else None
+    marks = (match for start, end in outside for match in _DELIMITER.finditer(data, start, end))
+    return next((begin for begin, end in outermost(marks) if end is None), None)
 
 
 class _Builder:

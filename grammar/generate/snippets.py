@@ -13,9 +13,9 @@ import json
 import re
 from collections.abc import Iterator
 
+from tree_sitter_m3d import example
 from tree_sitter_m3d.table import Block, Language, Statement
 
-_NUMBER = re.compile(r"[+-]?\.?[0-9][0-9.eE+-]*")
 _VECTOR = re.compile(r"\t*\w+ <")
 _STOP = re.compile(r"\$\{\d+:(.*?)\}")
 
@@ -78,10 +78,10 @@ class _Body:
     def _member(self, block: Block, keyword: str, depth: int) -> list[str]:
         tabs = "\t" * depth
         if keyword in block.tables:
-            found = re.search(rf"\b{keyword} (\{{[^}}]*\}})", block.example)
-            if found is None:
+            shown = example.table(block, keyword)
+            if shown is None:
                 raise ValueError(f"the example of {block.keyword} shows no {keyword}, which is usual in it")
-            return [f"{tabs}{keyword} {self._filled(found[1])}"]
+            return [f"{tabs}{keyword} {self._filled(shown)}"]
         if keyword in block.statements:
             statement = block.statements[keyword]
             return [f"{tabs}{keyword} {self._filled(_values(block, statement))}".rstrip()]
@@ -92,7 +92,7 @@ class _Body:
 
     def _filled(self, values: str) -> str:
         """The text with each number a place to stop at."""
-        return _NUMBER.sub(self._stop, values.replace("}", "\\}"))
+        return example.NUMBER.sub(self._stop, values.replace("}", "\\}"))
 
     def _stop(self, found: re.Match[str]) -> str:
         self._stops += 1
@@ -114,9 +114,9 @@ def _values(block: Block, statement: Statement) -> str:
     if statement.is_flag:
         return ""
     vector = statement.arguments[0].shape == "vector"
-    pattern = r"(<[^>]*>)" if vector else rf"((?:{_NUMBER.pattern}\s*)+)"
-    if found := re.search(rf"\b{statement.keyword} {pattern}", block.example):
-        return found[1].strip()
+    shown = example.values(block, statement)
+    if shown is not None:
+        return shown
     if vector:
         numbers = statement.default if isinstance(statement.default, tuple) else (0, 0, 0)
         return f"< {', '.join(f'{number:g}' for number in numbers)} >"

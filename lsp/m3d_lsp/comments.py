@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from m3dc import long_tables
 from m3dc.analysis import Analysis
+from tree_sitter_m3d.comments import outermost
 
 from .text import Span
 
@@ -84,21 +85,9 @@ def comments(analysis: Analysis) -> Comments:
 
 
 def _spans(data: bytes) -> list[Span]:
-    found: list[Span] = []
-    depth = opened = 0
     outside = long_tables.outside(data)
-    for match in (match for start, end in outside for match in _MARK.finditer(data, start, end)):
-        if match[0] == b"/*":
-            if depth == 0:
-                opened = match.start()
-            depth += 1
-        elif depth:
-            depth -= 1
-            if depth == 0:
-                found.append((opened, match.end()))
-    if depth:
-        found.append((opened, len(data)))
-    return found
+    marks = (match for start, end in outside for match in _MARK.finditer(data, start, end))
+    return [(begin, len(data) if end is None else end) for begin, end in outermost(marks)]
 
 
 def _title(comment: str) -> str | None:

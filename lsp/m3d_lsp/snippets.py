@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterator
 from itertools import count
 
+from tree_sitter_m3d import example
 from tree_sitter_m3d.phrases import written
 from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement, Table
 
-_NUMBER = re.compile(r"[+-]?\.?[0-9][0-9.eE+-]*")
 _STOP = re.compile(r"\$\{\d+:([^}]*)\}|\$\d")
 
 # What stands for a value without a default, by the kind of argument, or else by its shape.
@@ -67,10 +67,7 @@ def _member(block: Block, keyword: str, stops: Iterator[int], depth: int) -> Ite
 def _statement(entry: Statement, block: Block, stops: Iterator[int]) -> str:
     if entry.is_flag:
         return entry.keyword
-    shape = r"<[^>]*>" if entry.arguments[0].components else rf"(?:{_NUMBER.pattern}[, ]*)+"
-    found = re.search(rf"\b{entry.keyword} ({shape})", block.example)
-    values = found[1].strip() if found else _values(entry)
-    return f"{entry.keyword} {_filled(values, stops)}"
+    return f"{entry.keyword} {_filled(example.values(block, entry) or _values(entry), stops)}"
 
 
 def _values(entry: Statement) -> str:
@@ -84,13 +81,13 @@ def _value(argument: Argument) -> Default:
 
 
 def _table(entry: Table, block: Block, stops: Iterator[int]) -> str:
-    found = re.search(rf"\b{entry.keyword} (\{{[^}}]*\}})", block.example)
-    if found:
-        return f"{entry.keyword} {_filled(found[1], stops)}"
+    shown = example.table(block, entry.keyword)
+    if shown is not None:
+        return f"{entry.keyword} {_filled(shown, stops)}"
     head = ["1" for _ in entry.head]
     return f"{entry.keyword} {{ {_filled(' '.join([*head, *(written(_value(a)) for a in entry.row)]), stops)} }}"
 
 
 def _filled(values: str, stops: Iterator[int]) -> str:
     """The text with each number a tab stop."""
-    return _NUMBER.sub(lambda number: f"${{{next(stops)}:{number[0]}}}", values)
+    return example.NUMBER.sub(lambda number: f"${{{next(stops)}:{number[0]}}}", values)

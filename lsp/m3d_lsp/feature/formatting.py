@@ -41,6 +41,7 @@ def part(snapshot: Snapshot, params: types.DocumentRangeFormattingParams) -> Edi
 @request(
     types.TEXT_DOCUMENT_ON_TYPE_FORMATTING,
     types.DocumentOnTypeFormattingOptions(first_trigger_character="}", more_trigger_character=["\n"]),
+    slow=True,
 )
 def on_type(snapshot: Snapshot, params: types.DocumentOnTypeFormattingParams) -> Edits:
     """What has just been completed, and nothing after the cursor."""

@@ -15,7 +15,7 @@ CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-extension test-workbench lint lint-extension format generate gallery bench vsix
-.PHONY: programs tools modules
+.PHONY: programs tools modules viewer
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
@@ -57,6 +57,9 @@ format: tools ## Lay out the Python and Rust code
 	$(BIN)/ruff check --fix --quiet
 	$(BIN)/ruff format
 	cargo fmt --manifest-path renderer/Cargo.toml
+
+viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
+	@$(UV) sync --quiet --inexact --group view
 
 generate: tools ## Write everything that is made of grammar/language.toml
 	cd grammar && ../$(BIN)/python -m generate

@@ -21,7 +21,7 @@ FIGURES = {"matplotlib", "PIL"}
 MAY_IMPORT = {
     "tree_sitter_m3d": {"lark"},
     "m3dc": {"tree_sitter_m3d", "tree_sitter", "numpy"},
-    "m3d_render": {"m3dc", "numpy", "OpenImageIO", *FIGURES},
+    "m3d_render": {"m3dc", "numpy", "OpenImageIO", *FIGURES, "pyvista"},
     "m3d_lsp": {"m3dc", "m3d_render", "tree_sitter_m3d", "tree_sitter", "numpy", "pygls", "lsprotocol"},
 }
 
@@ -61,6 +61,7 @@ def test_a_command_line_loads_only_what_it_needs() -> None:
     renderer = loaded("import m3d_render.cli")
     assert not renderer & {"pygls", "lsprotocol", "pyvista", "vtkmodules", "OpenImageIO", "lark"}
     assert not loaded("import m3d_render.plot.cli") & (FIGURES | {"OpenImageIO", "lark"})
+    assert not loaded("import m3d_render.view.cli") & (FIGURES | {"pyvista", "vtkmodules", "OpenImageIO", "lark"})
 
 
 def test_the_tree_knows_no_keyword() -> None:

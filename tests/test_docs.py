@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,8 @@ ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMANDS = {"m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "mirage3d"}
+if find_spec("pyvista") is not None or os.environ.get("CI") == "true":
+    COMMANDS.add("m3d-view")
 EXAMPLE_SCRIPT = "python examples/"
 
 

@@ -1,0 +1,48 @@
+"""A scene file as it is now: compiled, or what is wrong with it."""
+
+from __future__ import annotations
+
+import io
+from typing import NamedTuple
+
+from m3d_render import command
+from m3d_render.command import SCENE_ERROR, CommandError
+from m3dc import compile as compile_scene
+from m3dc import report
+from m3dc.ir import SceneIR
+from m3dc.levels import Levels
+from m3dc.source import Source
+
+
+class Opened(NamedTuple):
+    """A scene that can be shown. `source` is its text, None of a compiled one; `warnings` are as m3dc prints them."""
+
+    ir: SceneIR
+    source: Source | None
+    warnings: str = ""
+
+
+class Fault(NamedTuple):
+    """Why there is nothing to show: in one line, as a report for the terminal, and as an exit status."""
+
+    summary: str
+    report: str
+    status: int
+
+
+def open_scene(scene: str) -> Opened | Fault:
+    """What is in a scene file, .m3d or .m3ir; standard input if it is called -. Never raises on what is in it."""
+    try:
+        if scene.lower().endswith(".m3ir"):
+            return Opened(command.load(scene), None)
+        data = command.read(scene)
+    except CommandError as failure:
+        return Fault(str(failure), f"m3d-view: error: {failure}\n", failure.status)
+    result = compile_scene(data, scene)
+    printed = io.StringIO()
+    report.print_human(Levels().apply(result.diagnostics), result.source, printed)
+    if result.ok:
+        return Opened(result.ir, result.source, printed.getvalue())
+    first = next(diagnostic for diagnostic in result.diagnostics if diagnostic.severity == "error")
+    line = result.source.position(first.span[0]).line
+    return Fault(f"line {line}: {first.headline}", printed.getvalue(), SCENE_ERROR)

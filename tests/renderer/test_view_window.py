@@ -224,6 +224,27 @@ def test_a_camera_that_was_moved_stays_when_the_file_changes(window):
     assert camera.position == pytest.approx((50, 0, 0))
 
 
+@pytest.mark.parametrize(("key", "eye"), [*((key, "50, 0, 0") for key in "123"), ("1", "0, 0, 50"), ("1", "0, 0, -50")])
+def test_a_camera_that_is_to_be_turned_is_upright_and_sees_the_same(window, key, eye):
+    save(THINGS.replace(VIEW, VIEW.replace("50, 0, 0", eye)))
+    window.tick()
+    window.press(key)
+    camera = window.stage.plotter.camera
+
+    def directions():
+        ahead = np.subtract(camera.focal_point, camera.position)
+        right = np.cross(ahead, camera.up)
+        return ahead / np.linalg.norm(ahead), right / np.linalg.norm(right)
+
+    before = directions()
+    window.stage.upright()
+    assert camera.up == (0, 0, 1)
+    np.testing.assert_allclose(directions(), before, atol=0.05)
+    save(THINGS.replace(VIEW, VIEW.replace("50, 0, 0", "25, 0, 0")))
+    window.tick()
+    assert key != "1" or camera.position == pytest.approx((25, 0, 0)), "that was no move by hand"
+
+
 @pytest.mark.parametrize("key", "rcba")
 def test_a_key_shows_a_layer_and_hides_it_again(window, key):
     window.press("3")

@@ -25,6 +25,7 @@ LAYERS = ("rays", "camera", "lights", "extents", "ground", "axes")
 
 LEAST_VERTICAL, MOST_VERTICAL = 1e-3, 1e6
 
+_STEEPEST, _INCLINED = 0.9995, 0.04  # the sine and the tangent of 2 degrees from the vertical: turning ends at 1
 _BACKGROUND = "#a9b3ba"  # black and white things are seen on it
 _INK = "#101418"
 _PAPER, _PAPER_OPACITY = "#dde3e8", 0.6  # under writing
@@ -131,6 +132,20 @@ class Stage:
         self.plotter.camera_set = True
         self.plotter.renderer.ResetCameraClippingRange()
         self._looked = place, self._camera_state()
+
+    def upright(self) -> None:
+        """Makes the scene's z what is up for the camera, as turning it about the vertical needs. A camera that looks
+        straight up or down is inclined a little for it, so that what was up in the picture stays so."""
+        stayed = self._stayed()
+        camera = self.plotter.camera
+        ahead, up = np.array(camera.focal_point) - np.array(camera.position), np.array(camera.up)
+        distance = float(np.linalg.norm(ahead))
+        if abs(ahead[2]) > _STEEPEST * distance:
+            ahead = ahead / distance - np.sign(ahead[2]) * _INCLINED * up
+            camera.position = np.array(camera.focal_point) - distance * ahead / np.linalg.norm(ahead)
+        camera.up = (0.0, 0.0, 1.0)
+        if stayed is not None:
+            self._looked = stayed, self._camera_state()
 
     def _stayed(self) -> From | None:
         """From where it is looked, unless the camera was moved by hand since."""

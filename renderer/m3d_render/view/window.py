@@ -132,6 +132,7 @@ class Window:
 
     def _on_press(self, *_: object) -> None:
         self._pressed_at = self.stage.plotter.iren.get_event_position()
+        self.stage.upright()
 
     def _on_release(self, *_: object) -> None:
         column, upward = self.stage.plotter.iren.get_event_position()

@@ -19,7 +19,8 @@ impl Film {
         if self.normalize {
             color.to_array().map(|value| positive(value).min(f64::from(f32::MAX)) as f32)
         } else {
-            color.to_array().map(|value| self.scaled(positive(value).min(1.0)))
+            let scale = self.scale();
+            color.to_array().map(|value| scale(positive(value).min(1.0)))
         }
     }
 
@@ -33,18 +34,19 @@ impl Film {
     /// Finishes some of the pixels, when this is the largest value of all.
     pub fn develop_by(&self, largest: f32, pixels: &mut [f32]) {
         if self.normalize && largest > 0.0 {
+            let scale = self.scale();
             for value in pixels {
-                *value = self.scaled((f64::from(*value) / f64::from(largest)).min(1.0));
+                *value = scale((f64::from(*value) / f64::from(largest)).min(1.0));
             }
         }
     }
 
-    /// log(1 + scale v)/log(1 + scale).
-    fn scaled(&self, value: f64) -> f32 {
-        if self.log_scale > 1.0 {
-            ((self.log_scale * value).ln_1p() / self.log_scale.ln_1p()) as f32
-        } else {
-            value as f32
+    /// The function v -> log(1 + scale v)/log(1 + scale).
+    fn scale(&self) -> impl Fn(f64) -> f32 {
+        let log_scale = self.log_scale;
+        let whole = if log_scale > 1.0 { log_scale.ln_1p() } else { 0.0 };
+        move |value| {
+            if log_scale > 1.0 { ((log_scale * value).ln_1p() / whole) as f32 } else { value as f32 }
         }
     }
 }

@@ -14,7 +14,7 @@ use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, SortPrecision};
 use wide::f32x4;
 
-use crate::ray::ShapeId;
+use crate::ray::{Ray, ShapeId};
 
 /// Beyond this, f32 arithmetic on boxes may overflow: such shapes are tested one by one.
 const LARGEST_COORDINATE: f64 = 1e18;
@@ -101,8 +101,10 @@ pub struct Bvh {
     nodes: Vec<Node>,
     items: Vec<Item>,
     pub unbounded: Vec<ShapeId>,
-    /// Largest coordinate of a box, by axis.
+    /// Largest coordinate of a box, by axis, whatever its sign.
     reach: [f32; 3],
+    /// Height of the highest box.
+    top: f32,
 }
 
 impl Bvh {
@@ -123,6 +125,7 @@ impl Bvh {
         for axis in 0..3 {
             tree.reach[axis] = low[axis].abs().max(high[axis].abs());
         }
+        tree.top = high[2];
         tree.fold(&binary.nodes);
         tree
     }
@@ -178,6 +181,13 @@ impl Bvh {
 
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty() && self.unbounded.is_empty()
+    }
+
+    /// Whether a ray starts above all boxes and goes up, as one does that has left the air.
+    #[inline]
+    pub fn lies_below(&self, ray: &Ray) -> bool {
+        let start = ray.origin.z + ray.from * ray.direction.z;
+        start > f64::from(self.top) && ray.direction.z >= 0.0
     }
 
     /// Constants of the slab test along one axis.
@@ -284,7 +294,8 @@ pub struct Slab {
     inverse: f32x4,
     near_offset: f32x4,
     far_offset: f32x4,
-    near_side: usize,
+    /// Which side of a box is the near one: 0 the low one, 1 the high one.
+    pub near_side: usize,
 }
 
 impl Slab {
@@ -306,14 +317,16 @@ impl Slab {
         }
     }
 
+    /// Distances of the near sides.
     #[inline]
-    pub fn near(&self, sides: &[f32x4; 2]) -> f32x4 {
-        sides[self.near_side] * self.inverse - self.near_offset
+    pub fn near(&self, side: f32x4) -> f32x4 {
+        side * self.inverse - self.near_offset
     }
 
+    /// Distances of the far sides.
     #[inline]
-    pub fn far(&self, sides: &[f32x4; 2]) -> f32x4 {
-        sides[1 - self.near_side] * self.inverse - self.far_offset
+    pub fn far(&self, side: f32x4) -> f32x4 {
+        side * self.inverse - self.far_offset
     }
 }
 

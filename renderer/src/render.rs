@@ -14,7 +14,7 @@ use crate::optics::path::Path;
 use crate::optics::tip::Tip;
 use crate::random::Place;
 use crate::ray::{Hit, Ray, ShapeId};
-use crate::scene::{Background, Owner, Scene};
+use crate::scene::{Background, Owner, Scene, Solid};
 use crate::shade::illumination::LitPoint;
 use crate::shade::scatter::{into_hemisphere, roughened};
 use crate::shape::RadialPlane;
@@ -200,19 +200,25 @@ impl<'a> Tracer<'a> {
     fn look(&mut self, x: f64, y: f64) -> Sight {
         let camera = &self.scene.camera;
         let ray = Ray::new(camera.eye, camera.direction(self.settings.size, x, y));
+        let bent = self.bent_part(&ray);
         self.tally.eye += 1;
-        self.tally.mirage += u64::from(self.bends(&ray));
-        self.follow(ray)
+        self.tally.mirage += u64::from(bent.is_some());
+        self.follow(ray, bent)
     }
 
-    /// Whether the air bends a ray, if it starts within the air's layers.
-    fn bends(&self, ray: &Ray) -> bool {
-        self.path.is_some() && horizontal_part(ray) >= NEARLY_VERTICAL
+    /// The length of a ray's horizontal part, if the air bends the ray, should it start within the air's layers.
+    fn bent_part(&self, ray: &Ray) -> Option<f64> {
+        self.path.as_ref()?;
+        let horizontal = DVec2::new(ray.direction.x, ray.direction.y).length();
+        (horizontal >= NEARLY_VERTICAL).then_some(horizontal)
     }
 
     /// Follows a ray as the air bends it.
-    fn follow(&mut self, ray: Ray) -> Sight {
-        if self.bends(&ray) { self.curve(ray) } else { Sight { arrival: self.straight(ray, 0.0), arcs: 0 } }
+    fn follow(&mut self, ray: Ray, bent: Option<f64>) -> Sight {
+        match bent {
+            Some(horizontal) => self.curve(ray, horizontal),
+            None => Sight { arrival: self.straight(ray, 0.0), arcs: 0 },
+        }
     }
 
     /// Follows a straight ray that has come some way before its origin.
@@ -234,9 +240,8 @@ impl<'a> Tracer<'a> {
     }
 
     /// Follows a ray along its curve, and beyond the curve's end along the last tangent.
-    fn curve(&mut self, start: Ray) -> Sight {
+    fn curve(&mut self, start: Ray, horizontal: f64) -> Sight {
         let scene = self.scene;
-        let horizontal = horizontal_part(&start);
         let slope = start.direction.z / horizontal;
         let radial = DVec2::new(start.direction.x, start.direction.y) / horizontal;
         let plane = RadialPlane { origin: start.origin, radial };
@@ -321,6 +326,9 @@ impl<'a> Tracer<'a> {
                     return sum + share * light.intensity * light.color;
                 }
             };
+            if !self.needs_normals(solid) {
+                return sum + share * solid.surface.ambient(scene.ambient.constant, solid.surface.color);
+            }
             let normals = scene.shapes.normals(shape, point, direction);
             let mut skin = Skin { color: solid.surface.color, normal: normals.shading };
             if !solid.textures.is_empty() {
@@ -369,11 +377,21 @@ impl<'a> Tracer<'a> {
             self.tally.reflected += 1;
             let ray = Ray { direction: mirrored.normalize_or_zero(), ..start };
             arrival = if self.settings.refract_reflections {
-                self.follow(ray).arrival
+                self.follow(ray, self.bent_part(&ray)).arrival
             } else {
                 self.straight(ray, 0.0)
             };
         }
+    }
+
+    /// Whether the colour of a solid depends on where its surface points to. Where nothing shines, and nothing is
+    /// mirrored or textured, it has the constant of indirect light alone.
+    fn needs_normals(&self, solid: &Solid) -> bool {
+        let Scene { lights, ambient, .. } = self.scene;
+        !(lights.is_empty()
+            && ambient.samples == 0
+            && solid.textures.is_empty()
+            && solid.surface.mirrors() <= 0.0)
     }
 
     /// Whether sample rays are sent out by a surface, of whose indirect light such a share comes through to the
@@ -449,8 +467,4 @@ impl Errand {
     fn of_eye(place: Place) -> Self {
         Self { level: 1, scattered: 0, share: 1.0, place }
     }
-}
-
-fn horizontal_part(ray: &Ray) -> f64 {
-    DVec2::new(ray.direction.x, ray.direction.y).length()
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use wide::{CmpLe, f32x4};
 
-use crate::bvh::{Boxes, Bvh, Probe, Slab, Visit, at_least};
+use crate::bvh::{Boxes, Bvh, Item, Probe, Slab, Visit, at_least};
 use crate::optics::crossing::{Range, meet_circle, meet_line, meet_segment};
 use crate::optics::path::Path;
 use crate::ray::{Hit, Ray, ShapeId, ShapeKind};
@@ -14,41 +14,88 @@ use crate::shape::{RadialPlane, cut, triangle};
 #[inline]
 fn meet(shapes: &Shapes, ray: &Ray, shape: ShapeId, corners: [u32; 3]) -> Option<f64> {
     let own = ray.leaves == Some(shape);
-    if shape.kind() == ShapeKind::Sphere {
-        return shapes.sphere(shape.row()).intersect(ray, own);
+    if shape.kind() != ShapeKind::Facet {
+        return meet_other(shapes, ray, shape, own);
     }
-    if own {
-        return None;
-    }
+    if own { None } else { triangle::intersect(shapes.corners(corners), ray) }
+}
+
+/// The same for what is no facet, out of the way of those.
+#[inline(never)]
+fn meet_other(shapes: &Shapes, ray: &Ray, shape: ShapeId, own: bool) -> Option<f64> {
     match shape.kind() {
-        ShapeKind::Facet => triangle::intersect(shapes.corners(corners), ray),
+        ShapeKind::Sphere => shapes.sphere(shape.row()).intersect(ray, own),
+        _ if own => None,
         ShapeKind::Rectangle => shapes.rectangle(shape.row()).intersect(ray),
         _ => shapes.plane(shape.row()).intersect(ray),
     }
 }
 
-/// A straight ray's constants for boxes.
-struct Straight {
-    slabs: [Slab; 3],
+/// What a straight ray is after.
+trait Search {
+    /// Farthest distance still of interest.
+    fn limit(&self) -> f32;
+    /// Tests one shape; true ends the search.
+    fn test(&mut self, shape: ShapeId, corners: [u32; 3]) -> bool;
+}
+
+/// A search on its walk through a tree. Bit `axis` of `OCTANT` is the slab's near side: known to the compiler, it
+/// costs no arithmetic at each node.
+struct Straight<'a, S, const OCTANT: usize> {
+    search: &'a mut S,
+    slabs: &'a [Slab; 3],
     from: f32,
 }
 
-impl Straight {
-    fn new(tree: &Bvh, ray: &Ray) -> Self {
-        let slab = |axis| tree.slab(axis, ray.origin[axis], ray.direction[axis]);
-        Self { slabs: [slab(0), slab(1), slab(2)], from: (ray.from as f32).next_down() }
+impl<S: Search, const OCTANT: usize> Probe for Straight<'_, S, OCTANT> {
+    #[inline]
+    fn enter(&mut self, boxes: &Boxes) -> [f32; 4] {
+        let near = |axis: usize| self.slabs[axis].near(boxes.sides[axis][OCTANT >> axis & 1]);
+        let far = |axis: usize| self.slabs[axis].far(boxes.sides[axis][1 - (OCTANT >> axis & 1)]);
+        let from = f32x4::splat(self.from);
+        let to = f32x4::splat(self.search.limit());
+        let near = near(0).fast_max(near(1)).fast_max(near(2).fast_max(from));
+        let far = far(0).fast_min(far(1)).fast_min(far(2).fast_min(to));
+        let missed = f32x4::splat(f32::INFINITY);
+        near.simd_le(far).blend(near, missed).to_array()
     }
 
     #[inline]
-    fn enter(&self, boxes: &Boxes, limit: f32) -> [f32; 4] {
-        let [x, y, z] = &self.slabs;
-        let [sides_x, sides_y, sides_z] = &boxes.sides;
-        let from = f32x4::splat(self.from);
-        let to = f32x4::splat(limit);
-        let near = x.near(sides_x).fast_max(y.near(sides_y)).fast_max(z.near(sides_z).fast_max(from));
-        let far = x.far(sides_x).fast_min(y.far(sides_y)).fast_min(z.far(sides_z).fast_min(to));
-        let missed = f32x4::splat(f32::INFINITY);
-        near.simd_le(far).blend(near, missed).to_array()
+    fn limit(&self) -> f32 {
+        self.search.limit()
+    }
+
+    #[inline]
+    fn test(&mut self, item: &Item) -> bool {
+        self.search.test(item.shape, item.corners)
+    }
+}
+
+/// Takes a search along a ray through a tree.
+#[inline]
+fn walk(tree: &Bvh, ray: &Ray, search: &mut impl Search, stack: &mut Vec<Visit>) {
+    // Eight calls with so many arguments would cost a ray that meets nothing more than its walk.
+    #[inline(always)]
+    fn within<S: Search, const OCTANT: usize>(
+        tree: &Bvh,
+        slabs: &[Slab; 3],
+        from: f32,
+        search: &mut S,
+        stack: &mut Vec<Visit>,
+    ) {
+        tree.walk(&mut Straight::<S, OCTANT> { search, slabs, from }, stack);
+    }
+    let slabs = &[0, 1, 2].map(|axis| tree.slab(axis, ray.origin[axis], ray.direction[axis]));
+    let from = (ray.from as f32).next_down();
+    match [0, 1, 2].map(|axis| slabs[axis].near_side) {
+        [0, 0, 0] => within::<_, 0>(tree, slabs, from, search, stack),
+        [1, 0, 0] => within::<_, 1>(tree, slabs, from, search, stack),
+        [0, 1, 0] => within::<_, 2>(tree, slabs, from, search, stack),
+        [1, 1, 0] => within::<_, 3>(tree, slabs, from, search, stack),
+        [0, 0, _] => within::<_, 4>(tree, slabs, from, search, stack),
+        [1, 0, _] => within::<_, 5>(tree, slabs, from, search, stack),
+        [0, 1, _] => within::<_, 6>(tree, slabs, from, search, stack),
+        _ => within::<_, 7>(tree, slabs, from, search, stack),
     }
 }
 
@@ -56,14 +103,18 @@ impl Straight {
 struct Nearest<'a> {
     shapes: &'a Shapes,
     ray: Ray,
-    straight: Straight,
     limit: f32,
     found: Option<Hit>,
 }
 
-impl Nearest<'_> {
+impl Search for Nearest<'_> {
     #[inline]
-    fn try_shape(&mut self, shape: ShapeId, corners: [u32; 3]) {
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline]
+    fn test(&mut self, shape: ShapeId, corners: [u32; 3]) -> bool {
         if let Some(t) = meet(self.shapes, &self.ray, shape, corners)
             && t <= self.ray.to
         {
@@ -71,90 +122,56 @@ impl Nearest<'_> {
             self.ray.to = t;
             self.limit = at_least(t);
         }
-    }
-}
-
-impl Probe for Nearest<'_> {
-    #[inline]
-    fn enter(&mut self, boxes: &Boxes) -> [f32; 4] {
-        self.straight.enter(boxes, self.limit)
-    }
-
-    #[inline]
-    fn limit(&self) -> f32 {
-        self.limit
-    }
-
-    #[inline]
-    fn test(&mut self, item: &crate::bvh::Item) -> bool {
-        self.try_shape(item.shape, item.corners);
         false
     }
 }
 
 /// The first shape of a tree along a straight ray.
+#[inline]
 pub fn nearest(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
-    if tree.is_empty() {
-        return None;
-    }
-    let mut probe = Nearest {
-        shapes,
-        ray: *ray,
-        straight: Straight::new(tree, ray),
-        limit: at_least(ray.to),
-        found: None,
-    };
+    if tree.is_empty() { None } else { nearest_of_any(shapes, tree, ray, stack) }
+}
+
+fn nearest_of_any(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
+    let mut nearest = Nearest { shapes, ray: *ray, limit: at_least(ray.to), found: None };
     for &shape in &tree.unbounded {
-        probe.try_shape(shape, shapes.corners_of(shape));
+        nearest.test(shape, shapes.corners_of(shape));
     }
-    tree.walk(&mut probe, stack);
-    probe.found
+    if !tree.lies_below(ray) {
+        walk(tree, ray, &mut nearest, stack);
+    }
+    nearest.found
 }
 
 /// Looks for any shape at all.
 struct Blocker<'a> {
     shapes: &'a Shapes,
     ray: Ray,
-    straight: Straight,
     limit: f32,
     found: bool,
 }
 
-impl Probe for Blocker<'_> {
-    #[inline]
-    fn enter(&mut self, boxes: &Boxes) -> [f32; 4] {
-        self.straight.enter(boxes, self.limit)
-    }
-
+impl Search for Blocker<'_> {
     #[inline]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline]
-    fn test(&mut self, item: &crate::bvh::Item) -> bool {
-        let t = meet(self.shapes, &self.ray, item.shape, item.corners);
-        self.found = t.is_some_and(|t| t < self.ray.to);
+    fn test(&mut self, shape: ShapeId, corners: [u32; 3]) -> bool {
+        self.found = meet(self.shapes, &self.ray, shape, corners).is_some_and(|t| t < self.ray.to);
         self.found
     }
 }
 
 /// Whether a shape of the tree lies on the ray before its end.
 pub fn blocked(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> bool {
-    let blocks =
-        |shape: &ShapeId| meet(shapes, ray, *shape, shapes.corners_of(*shape)).is_some_and(|t| t < ray.to);
-    if tree.unbounded.iter().any(blocks) {
+    let mut blocker = Blocker { shapes, ray: *ray, limit: at_least(ray.to), found: false };
+    if tree.unbounded.iter().any(|&shape| blocker.test(shape, shapes.corners_of(shape))) {
         return true;
     }
-    let mut probe = Blocker {
-        shapes,
-        ray: *ray,
-        straight: Straight::new(tree, ray),
-        limit: at_least(ray.to),
-        found: false,
-    };
-    tree.walk(&mut probe, stack);
-    probe.found
+    walk(tree, ray, &mut blocker, stack);
+    blocker.found
 }
 
 /// How a curve starts.
@@ -182,6 +199,21 @@ struct Curved<'a, 'b, 'c> {
 }
 
 impl Curved<'_, '_, '_> {
+    /// The first shape of a tree.
+    fn first_of(mut self, tree: &Bvh, stack: &mut Vec<Visit>) -> Option<Hit> {
+        match self.slabs.map(|slab| slab.near_side) {
+            [0, 0] => tree.walk(&mut Walking::<0>(&mut self), stack),
+            [1, 0] => tree.walk(&mut Walking::<1>(&mut self), stack),
+            [0, _] => tree.walk(&mut Walking::<2>(&mut self), stack),
+            _ => tree.walk(&mut Walking::<3>(&mut self), stack),
+        }
+        // After the tree: a plane is looked for arc by arc, and need not be beyond what is already found.
+        for &shape in &tree.unbounded {
+            self.try_shape(shape, self.shapes.corners_of(shape));
+        }
+        self.found
+    }
+
     fn try_shape(&mut self, shape: ShapeId, corners: [u32; 3]) {
         let row = shape.row();
         let mut range = Range {
@@ -216,35 +248,40 @@ impl Curved<'_, '_, '_> {
     }
 }
 
-impl Probe for Curved<'_, '_, '_> {
+/// A search along a curve on its walk through a tree. Bit `axis` of `QUADRANT` is the slab's near side, as of a straight
+/// ray's `OCTANT`.
+struct Walking<'a, 'b, 'c, 'd, const QUADRANT: usize>(&'d mut Curved<'a, 'b, 'c>);
+
+impl<const QUADRANT: usize> Probe for Walking<'_, '_, '_, '_, QUADRANT> {
     #[inline]
     fn enter(&mut self, boxes: &Boxes) -> [f32; 4] {
-        let [x, y] = &self.slabs;
-        let [sides_x, sides_y, [low, high]] = &boxes.sides;
-        let to = f32x4::splat(self.limit);
-        let near = x.near(sides_x).fast_max(y.near(sides_y)).fast_max(f32x4::splat(0.0));
-        let far = x.far(sides_x).fast_min(y.far(sides_y)).fast_min(to);
+        let Curved { slabs, path, arc, limit, .. } = &mut *self.0;
+        let near = |axis: usize| slabs[axis].near(boxes.sides[axis][QUADRANT >> axis & 1]);
+        let far = |axis: usize| slabs[axis].far(boxes.sides[axis][1 - (QUADRANT >> axis & 1)]);
+        let near = near(0).fast_max(near(1)).fast_max(f32x4::splat(0.0));
+        let far = far(0).fast_min(far(1)).fast_min(f32x4::splat(*limit));
         let reached = near.simd_le(far);
         if reached.none() {
             return [f32::INFINITY; 4];
         }
-        let passed = self.path.passes(reached, [near, far], [*low, *high], &mut self.arc);
+        let passed = path.passes(reached, [near, far], boxes.sides[2], arc);
         passed.blend(near, f32x4::splat(f32::INFINITY)).to_array()
     }
 
     #[inline]
     fn limit(&self) -> f32 {
-        self.limit
+        self.0.limit
     }
 
     #[inline]
-    fn test(&mut self, item: &crate::bvh::Item) -> bool {
-        self.try_shape(item.shape, item.corners);
+    fn test(&mut self, item: &Item) -> bool {
+        self.0.try_shape(item.shape, item.corners);
         false
     }
 }
 
 /// The first shape of a tree along a curve that starts at the plane's origin, not beyond `limit`.
+#[inline]
 pub fn nearest_on_curve(
     shapes: &Shapes,
     tree: &Bvh,
@@ -259,7 +296,7 @@ pub fn nearest_on_curve(
     }
     let (origin, DVec2 { x, y }) = (plane.origin, plane.radial);
     let reach = path.reach();
-    let mut probe = Curved {
+    let curved = Curved {
         shapes,
         plane: *plane,
         path,
@@ -270,12 +307,7 @@ pub fn nearest_on_curve(
         arc: 0,
         found: None,
     };
-    tree.walk(&mut probe, stack);
-    // After the tree: a plane is looked for arc by arc, and need not be beyond what is already found.
-    for &shape in &tree.unbounded {
-        probe.try_shape(shape, shapes.corners_of(shape));
-    }
-    probe.found
+    curved.first_of(tree, stack)
 }
 
 /// How far from a surface a ray that starts on it begins to look for others: well above the rounding of the start.
@@ -374,7 +406,7 @@ mod tests {
             slope in -0.03..0.03f64, bends in prop::collection::vec(-3e-4..3e-4f64, 8),
         ) {
             let layers: Vec<Layer> = bends.iter().enumerate()
-                .map(|(i, &half_bend)| Layer { bottom: i as f64, top: i as f64 + 1.0, half_bend })
+                .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
                 .collect();
             let air = Atmosphere { layers, profile_top: 8.0, segments: 300, distance: 400.0 };
             let mut path = Path::new(&air);

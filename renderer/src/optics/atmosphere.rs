@@ -24,6 +24,16 @@ pub struct Layer {
     pub top: f64,
     /// A_p = -κ_eff / 2 (thesis eq. 4.1), 1/m.
     pub half_bend: f64,
+    pub height: f64,
+    /// What slope² grows by from the bottom to the top: the equation's slope² - 4 A_p z is the same all along a ray.
+    pub gain: f64,
+}
+
+impl Layer {
+    pub fn new(bottom: f64, top: f64, half_bend: f64) -> Self {
+        let height = top - bottom;
+        Self { bottom, top, half_bend, height, gain: 4.0 * half_bend * height }
+    }
 }
 
 /// What MIRAGE says of the end of a curved ray.
@@ -138,7 +148,7 @@ impl Atmosphere {
                 if !bend.is_finite() {
                     return Err(format!("the atmosphere at elevation {middle} has no finite curvature"));
                 }
-                layers.push(Layer { bottom, top: top.min(ceiling), half_bend: -0.5 * bend });
+                layers.push(Layer::new(bottom, top.min(ceiling), -0.5 * bend));
             }
         }
         Ok(Self { layers, profile_top, segments: limits.segments, distance: limits.distance })

@@ -35,7 +35,7 @@ impl Quadratic {
 
     /// Smallest root in from..to, both included, where the values at the two ends are known better than the
     /// coefficients say.
-    #[inline]
+    #[inline(always)]
     fn first_root(&self, from: f64, to: f64, value_from: f64, value_to: f64) -> Option<f64> {
         if value_from == 0.0 {
             return Some(from);
@@ -406,7 +406,7 @@ mod tests {
         let layers: Vec<Layer> = bends
             .iter()
             .enumerate()
-            .map(|(i, &half_bend)| Layer { bottom: i as f64, top: i as f64 + 1.0, half_bend })
+            .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
             .collect();
         let profile_top = layers.len() as f64;
         Atmosphere { layers, profile_top, segments: 500, distance: 2_000.0 }

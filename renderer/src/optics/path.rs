@@ -87,11 +87,11 @@ impl<'a> Path<'a> {
         self.tip = tip;
     }
 
-    /// Makes a few more arcs, at most as many as there are or eight, for someone who looks at every one. False if there
+    /// Makes a few more arcs, at most as many as there are or sixteen, for someone who looks at every one. False if there
     /// are no more.
     pub fn more(&mut self) -> bool {
         let made = self.arcs.len();
-        self.extend(made.max(8), f64::INFINITY);
+        self.extend(made.max(16), f64::INFINITY);
         self.arcs.len() > made
     }
 
@@ -146,7 +146,7 @@ impl<'a> Path<'a> {
     /// Of four boxes, over the distances `near`..`far` and the heights `low`..`high`, those that the curve passes,
     /// and now and then one that it all but touches. Only the lanes of `asked` are looked at. `hint` is an arc near
     /// the boxes, and becomes the one above the first.
-    #[inline]
+    #[inline(always)]
     pub fn passes(
         &mut self,
         asked: f32x4,
@@ -162,7 +162,8 @@ impl<'a> Path<'a> {
         (passed & !vague) | self.arcs_pass(vague, distances, heights, hint)
     }
 
-    /// The same arc by arc.
+    /// The same arc by arc. Seldom needed: the band tells much of a box that is not very flat.
+    #[inline(never)]
     fn arcs_pass(
         &mut self,
         asked: f32x4,
@@ -199,7 +200,7 @@ mod tests {
         let layers: Vec<Layer> = bends
             .iter()
             .enumerate()
-            .map(|(i, &half_bend)| Layer { bottom: i as f64, top: i as f64 + 1.0, half_bend })
+            .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
             .collect();
         let profile_top = layers.len() as f64;
         Atmosphere { layers, profile_top, segments: 200, distance: 10_000.0 }

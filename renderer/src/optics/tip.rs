@@ -3,8 +3,10 @@
 //! An arc ends exactly where the next one starts: a layer boundary's height is that boundary's, not a parabola's
 //! rounded value, so that a surface lying on a boundary is met by the arc that ends there.
 
+use wide::f64x2;
+
 use super::arc::Arc;
-use super::atmosphere::Atmosphere;
+use super::atmosphere::{Atmosphere, Layer};
 
 /// Why a curve ended: what the straight ray along its last tangent starts from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -62,7 +64,7 @@ impl Tip {
             } else {
                 self.pass_layers::<false>(air, &mut keep)
             };
-            if !more || self.end.is_some() {
+            if !more {
                 return;
             }
             let arc = self.step(air);
@@ -86,44 +88,47 @@ impl Tip {
     }
 
     /// Follows the curve from a boundary through whole layers, which is most of the work, until it is about to turn,
-    /// to be level, to go beyond the distance limit or to leave the layers: the same arcs as `step` makes. False
-    /// once `keep` wants no more.
+    /// to be level, to go beyond the distance limit or to leave the layers: the same arcs as `step` makes. Not at all
+    /// where it is inside of a layer. False once `keep` wants no more.
     #[inline(always)]
     fn pass_layers<const UP: bool>(&mut self, air: &Atmosphere, keep: &mut impl FnMut(Arc) -> bool) -> bool {
         let begins = air.layers.get(self.layer).map(|layer| if UP { layer.bottom } else { layer.top });
         if self.slope == 0.0 || begins != Some(self.z) {
             return true;
         }
-        while let Some(layer) = air.layers.get(self.layer) {
-            let height = layer.top - layer.bottom;
-            let gain = 4.0 * layer.half_bend * height;
-            let reach = if UP { self.slope_squared + gain } else { self.slope_squared - gain };
-            if reach.is_nan() || reach <= 0.0 {
-                return true;
-            }
-            let root = reach.sqrt();
-            let r1 = self.r + 2.0 * height / (self.slope.abs() + root);
-            let beyond = if UP { self.layer + 1 } else { self.layer.wrapping_sub(1) };
-            if !(r1 < air.distance && beyond < air.layers.len()) {
-                return true;
-            }
-            let z1 = if UP { layer.top } else { layer.bottom };
-            let arc = Arc {
-                r0: self.r,
-                r1,
-                z0: self.z,
-                z1,
-                slope: self.slope,
-                half_bend: layer.half_bend,
-                apex: z1,
-            };
-            self.slope = if UP { root } else { -root };
-            (self.r, self.z, self.slope_squared, self.layer) = (r1, z1, reach, beyond);
-            if !keep(arc) {
-                return false;
+        let beyond = |layer: usize| if UP { layer + 1 } else { layer.wrapping_sub(1) };
+        let reach = |slope_squared: f64, layer: &Layer| {
+            if UP { slope_squared + layer.gain } else { slope_squared - layer.gain }
+        };
+        loop {
+            let (first, second) = (self.layer, beyond(self.layer));
+            let (Some(one), Some(two)) = (air.layers.get(first), air.layers.get(second)) else { return true };
+            let reach_one = reach(self.slope_squared, one);
+            let reach_two = reach(reach_one, two);
+            // Two layers at once: square roots and divisions are what takes time.
+            let roots = f64x2::from([reach_one, reach_two]).sqrt();
+            let [root_one, root_two] = roots.to_array();
+            let doubled = f64x2::from([2.0 * one.height, 2.0 * two.height]);
+            let widths = doubled / (f64x2::from([self.slope.abs(), root_one]) + roots);
+            let [width_one, width_two] = widths.to_array();
+            for (layer, reach, root, width) in
+                [(one, reach_one, root_one, width_one), (two, reach_two, root_two, width_two)]
+            {
+                let r1 = self.r + width;
+                let next = beyond(self.layer);
+                if reach.is_nan() || reach <= 0.0 || !(r1 < air.distance && next < air.layers.len()) {
+                    return true;
+                }
+                let z1 = if UP { layer.top } else { layer.bottom };
+                let half_bend = layer.half_bend;
+                let arc = Arc { r0: self.r, r1, z0: self.z, z1, slope: self.slope, half_bend, apex: z1 };
+                self.slope = if UP { root } else { -root };
+                (self.r, self.z, self.slope_squared, self.layer) = (r1, z1, reach, next);
+                if !keep(arc) {
+                    return false;
+                }
             }
         }
-        true
     }
 
     /// Chooses the layer beyond the boundary below layer `above`, by the ray's slope, or by the way it bends where

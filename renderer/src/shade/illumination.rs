@@ -19,6 +19,11 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// I_amb = I_a k_a O_d, `color` being the diffuse one after texturing.
+    pub fn ambient(&self, light: DVec3, color: DVec3) -> DVec3 {
+        light * self.ambient * color
+    }
+
     /// k_h k_s, the share of the light from the mirror direction.
     pub fn mirrors(&self) -> f64 {
         self.hard * self.specular
@@ -95,9 +100,9 @@ pub struct LitPoint<'a> {
 }
 
 impl LitPoint<'_> {
-    /// I_amb = I_a k_a O_d.
-    pub fn ambient(&self, ambient: DVec3) -> DVec3 {
-        ambient * self.surface.ambient * self.diffuse
+    /// I_amb, as of the surface.
+    pub fn ambient(&self, light: DVec3) -> DVec3 {
+        self.surface.ambient(light, self.diffuse)
     }
 
     /// What a share of light from all around, each direction weighted by N.D, makes of the surface: k_d O_d of it.

@@ -49,25 +49,24 @@ pub struct Segment {
 #[inline]
 pub fn cut<const N: usize>(plane: &RadialPlane, corners: [&DVec3; N]) -> Option<Segment> {
     let beside = corners.map(|&corner| plane.beside(corner));
-    let mut cuts = [DVec2::ZERO; 2];
-    let mut count = 0;
-    for i in 0..N {
+    // A bit a corner: whether it lies on the positive side; then a bit an edge: whether its ends differ. No branches,
+    // for none could be foreseen.
+    let positive = (0..N).fold(0u32, |bits, i| bits | u32::from(beside[i] >= 0.0) << i);
+    let crossing = positive ^ (positive >> 1 | (positive & 1) << (N - 1));
+    let but_first = crossing & crossing.wrapping_sub(1);
+    if but_first == 0 || but_first & (but_first - 1) != 0 {
+        return None;
+    }
+    let first = crossing.trailing_zeros() as usize;
+    let last = but_first.trailing_zeros() as usize;
+    let cuts = [first, last].map(|i| {
         let j = if i + 1 == N { 0 } else { i + 1 };
-        if (beside[i] >= 0.0) == (beside[j] >= 0.0) {
-            continue;
-        }
         let (low, high) = if beside[i] < 0.0 { (i, j) } else { (j, i) };
         let share = beside[low] / (beside[low] - beside[high]);
         let (from, to) = (corners[low], corners[high]);
         let (r0, r1) = (plane.along(*from), plane.along(*to));
-        if count < 2 {
-            cuts[count] = DVec2::new(r0 + share * (r1 - r0), from.z + share * (to.z - from.z));
-        }
-        count += 1;
-    }
-    if count != 2 {
-        return None;
-    }
+        DVec2::new(r0 + share * (r1 - r0), from.z + share * (to.z - from.z))
+    });
     let [start, end] = if cuts[0].x <= cuts[1].x { cuts } else { [cuts[1], cuts[0]] };
     Some(Segment { start, end })
 }

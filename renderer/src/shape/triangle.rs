@@ -16,8 +16,9 @@ pub fn intersect(corners: [&DVec3; 3], ray: &Ray) -> Option<f64> {
     let along_bc = d.dot(b.cross(c));
     let along_ca = d.dot(c.cross(a));
     let along_ab = d.dot(a.cross(b));
-    let inside = (along_bc >= 0.0 && along_ca >= 0.0 && along_ab >= 0.0)
-        || (along_bc <= 0.0 && along_ca <= 0.0 && along_ab <= 0.0);
+    // One branch, because none of these can be foreseen.
+    let inside = ((along_bc >= 0.0) & (along_ca >= 0.0) & (along_ab >= 0.0))
+        | ((along_bc <= 0.0) & (along_ca <= 0.0) & (along_ab <= 0.0));
     if !inside {
         return None;
     }

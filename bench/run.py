@@ -184,7 +184,9 @@ METHOD = """\
   (the row `terrain-whole` leaves nothing out on either side). POV-Ray builds its own as it parses.
 - Memory is the largest resident memory of the process, as the system gives it at its end.
 - The C tracer (`bench/tracer/arcs.c`) follows the same parabolas through the same layers; the run compares where
-  every ray ends. Embree (`bench/embree/primary.c`) gets the same camera, triangles and spheres.
+  every ray ends. Embree (`bench/embree/primary.c`) gets the same camera, triangles and spheres; a sample of either is
+  the least of three pictures.
+- Curved and straight pictures are measured in eight bands by turns, and the bands' medians added.
 - The language servers get the same edits from one client (`bench/lsp_client.py`): a number is replaced in a text of
   2,000 lines, and the time is taken until the diagnostics of that edit are there; then a hover and a completion.
 - What is not installed is left out, and its column says so. `apt install povray libembree-dev` brings two.

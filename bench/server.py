@@ -103,8 +103,8 @@ def _times(shop: Workshop, name: str, subject: Subject, edits: int = EDITS) -> d
     with Client(subject.command, shop.folder / f"{name}-server.log") as client:
         client.request("initialize", {"processId": None, "rootUri": None, "capabilities": capabilities})
         client.notify("initialized", {})
+        # What comes of this is not waited for: openscad-lsp tells nothing of a text until it changes.
         client.notify("textDocument/didOpen", {"textDocument": document})
-        _diagnostics(client, uri, 0, subject.pull)
         text, version = subject.text, 0
         for number in range(WARM_UP + edits):
             start, end = chance.choice(places)

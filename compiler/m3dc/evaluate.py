@@ -8,9 +8,9 @@ their value; those that do more have an entry in `MEANING`, and what must hold o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from .ir import Span
 from .memo import Ledger, Steps
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
 from .values import Record, TableValue, Value, Vector, spelled
+
+T = TypeVar("T")
 
 INTEGER_LIMIT = 2**31 - 1
 
@@ -67,22 +69,20 @@ class Evaluator:
         self._variables: Ledger[Value] = Ledger()
         self._variables.update(variables or {})
         self._lights: list[Record] = []  # of the item being run
+        self._memory: Steps | None = None
 
     def run(self, items: Iterable[program.Item], faulty: frozenset[int], steps: Steps | None = None) -> World:
         """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
 
         Of the items that start at a `faulty` byte, which are not whole, nothing is reported. With the `steps` of a run
-        before, an item is run only if it or a variable that it uses has changed.
+        before, an item is run only if it or a variable that it uses has changed, and so is what is in it.
         """
+        self._memory = steps
         made: list[Made] = []
         for item in items:
             self._findings.base = item.base
             before = len(self._findings.found)
-            if steps is None:
-                made.append(self._item(item.content))
-            else:
-                work = partial(self._item, item.content)
-                made.append(steps.do(item.base, item.content, work, self._findings, self._variables))
+            made.append(self._once(item.base, item.content, partial(self._item, item.content)))
             if item.start in faulty:
                 del self._findings.found[before:]
         self._findings.base = 0
@@ -94,13 +94,19 @@ class Evaluator:
             tuple(made),
         )
 
+    def _once(self, key: Hashable, of: object, work: Callable[[], T]) -> T:
+        """The outcome of `work`, not done again where nothing has changed since the run before (`Steps.do`)."""
+        if self._memory is None:
+            return work()
+        return self._memory.do(key, of, work, self._findings, self._variables)
+
     def _item(self, content: program.Content) -> Made:
         self._lights = []
         match content:
             case program.Assignment():
                 return Made(self._assign(content), None, (), ())
             case program.Block():
-                record = self._top(content)
+                record = self._whole(content)
                 scene = record if record.block == "SCENE" else None
                 solids = (record,) if record.block == "SOLID" else ()
                 lights = (record,) if record.block == "LIGHT" else tuple(self._lights)
@@ -129,7 +135,8 @@ class Evaluator:
         self._variables[name] = value
         return value
 
-    def _top(self, block: program.Block) -> Record:
+    def _whole(self, block: program.Block) -> Record:
+        """A new record that is whole: no later block changes it."""
         record = self._record(block)
         FINISH[record.block](record, self._findings, whole=True)
         return record
@@ -167,11 +174,10 @@ class Evaluator:
                     detail = f"{block.source.text} replaces the matrix; a block in braces would build on it"
                     self._findings.add("M3D0501", block.source.span, detail)
                 start = source.transform
-            record.transform = self._steps(start, block.body)
+            steps = partial(self._steps, start, block.body)
+            record.transform = self._once(block.span, block, steps) if start is IDENTITY else steps()
         elif block.entry.adds:
-            part = self._record(block)
-            FINISH[keyword](part, self._findings, whole=True)
-            record.parts += (part,)
+            record.parts += (self._once(block.span, block, partial(self._whole, block)),)
         else:
             if block.source is not None:
                 source = self._variables[block.source.text]

@@ -16,8 +16,8 @@ from .settings import Settings
 from .snapshot import Snapshot
 from .text import Text
 
-# An analysis that takes long waits for a pause in the typing: as long as it takes itself, within these bounds. One
-# that is done in a blink does not wait.
+# After an analysis that took long, the next one waits as long as it took, within these bounds, so that at most half of
+# the time goes into it while someone types. One that was done in a blink does not make the next wait.
 BLINK_S = 0.03
 LONGEST_PAUSE_S = 0.4
 
@@ -42,7 +42,7 @@ class Document:
         self._executor = executor
         self._looked_at = looked_at
         self._analyser = Analyser()
-        self._seconds = 0.0
+        self._rested = 0.0  # time.monotonic() from when on an analysis may start unasked
         self._running = False
         self._timer: asyncio.TimerHandle | None = None
         self._waiting: list[asyncio.Future[Snapshot]] = []
@@ -58,14 +58,7 @@ class Document:
                 self.text = Text.of(change.text, self.text.name, self.text.encoding)
         self.version = version
         self._snapshot = None
-        pause = 0.0 if self._seconds < BLINK_S else min(self._seconds, LONGEST_PAUSE_S)
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
-        if pause == 0.0 or self._waiting:
-            self._start()
-        else:
-            self._timer = asyncio.get_running_loop().call_later(pause, self._start)
+        self._start_when_due()
 
     def set(self, settings: Settings) -> None:
         """Take over changed settings; the document is looked at anew with them."""
@@ -96,12 +89,19 @@ class Document:
             future.cancel()
         self._waiting = []
 
+    def _start_when_due(self) -> None:
+        rest = self._rested - time.monotonic()
+        if rest <= 0 or self._waiting:
+            self._start()
+        elif self._timer is None:
+            self._timer = asyncio.get_running_loop().call_later(rest, self._start)
+
     def _start(self) -> None:
-        if self._running or self._closed or self._snapshot is not None:
-            return
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
+        if self._running or self._closed or self._snapshot is not None:
+            return
         self._running = True
         text, version = self.text, self.version
         task = asyncio.get_running_loop().run_in_executor(self._executor, self._analyse, text)
@@ -124,12 +124,14 @@ class Document:
                     future.set_exception(error)
             self._waiting = []
             raise error
-        analysis, self._seconds = done.result()
+        analysis, seconds = done.result()
+        if seconds >= BLINK_S:
+            self._rested = time.monotonic() + min(seconds, LONGEST_PAUSE_S)
         snapshot = Snapshot(self.uri, version, text, analysis, self.settings, self.client)
         if analysis.ok:
             self.good = snapshot
         if text is not self.text:
-            self._start()
+            self._start_when_due()
             return
         self._snapshot = snapshot
         waiting, self._waiting = self._waiting, []

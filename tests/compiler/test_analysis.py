@@ -26,6 +26,8 @@ SOLID thing { SURFACE { SPECULAR 0.5 } }
 SOLID thing
 ball = { RADIUS 3 }
 SOLID { SPHERE ball SURFACE skin { TEXTURE { UBLEND { COLORS { 0 0.5 < 1, 0, 0 > < 0, 1, 0 > } } } } }
+SOLID { SPHERE ball { TRANSFORM { TRANSX far } } SPHERE { CENTER < 1, 2, 3 > RADIUS size }
+        SPHERE { TRANSFORM { SCALE < 2, 2, 2 > } TRANSFORM turn { ROTX 20 } } SURFACE skin }
 SOLID { POLYGONS { VERTICES { 3 < 0, 0, 0 > < 1, 0, 0 > < 0, 1, 1 > } FACETS { 1 0 1 2 } } TRANSFORM { IDENTITY } }
 SCENE { SHADOWS SKY { SUN { ZENITH 30 } } VIEW { FROM < far, 0, 2 > TO < 0, 0, 0 > }
         MIRAGE { PROFILE { 0 20 size 19 9 18 } } }
@@ -119,3 +121,20 @@ def test_what_did_not_change_is_not_made_again() -> None:
         "SOLID",
         "LIGHT",
     ]
+
+
+def test_of_a_solid_only_the_parts_that_change_are_made_again() -> None:
+    analyser = Analyser()
+    text = """\
+VARIABLES { NUMBER size; SPHERE ball; }
+size = 2 ball = { RADIUS 3 }
+SOLID { SPHERE ball SPHERE { RADIUS size } SPHERE { RADIUS 4 } }
+"""
+    before = analyser.analyse(Source(text.encode())).world.solids[0].parts
+    after = analyser.analyse(Source(text.replace("size = 2", "size = 5").encode())).world.solids[0].parts
+    assert [one is other for one, other in zip(before, after, strict=True)] == [True, False, True]
+    assert [part.number("RADIUS") for part in after] == [3, 5, 4]
+    # What is moved as a whole, and then changed elsewhere, keeps what it was made of long before.
+    moved = analyser.analyse(Source(("\n" + text).encode())).world.solids[0].parts
+    last = analyser.analyse(Source(("\n" + text.replace("size = 2", "size = 6")).encode())).world.solids[0].parts
+    assert [one is other for one, other in zip(moved, last, strict=True)] == [True, False, True]

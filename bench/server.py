@@ -10,9 +10,10 @@ import random
 import re
 import shutil
 import time
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from itertools import count, islice
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from .lsp_client import Client
 from .result import Aim, Result, middle
@@ -23,10 +24,13 @@ EDITS = 100
 WARM_UP = 10
 ASKED = ("diagnostics", "hover", "completion")
 
+Times: TypeAlias = dict[str, list[float]]
+
 
 class Subject(NamedTuple):
     """A server, and the text that it is given. `pull` is whether its diagnostics are asked for."""
 
+    name: str
     command: Sequence[str | Path]
     language: str
     text: str
@@ -34,32 +38,38 @@ class Subject(NamedTuple):
 
 
 def small(shop: Workshop) -> list[Result]:
-    """Ours beside openscad-lsp and the CSS server of VS Code, 2,000 lines each."""
-    ours = _times(shop, "m3d", _ours(shop, long()))
-    openscad = shutil.which("openscad-lsp")
-    theirs = openscad and _times(shop, "openscad", Subject([openscad, "--stdio"], "openscad", _openscad()))
-    results = [
-        Result(
-            f"server-{asked}",
-            f"language server, 2,000 lines, an edit: {asked}",
-            "openscad-lsp",
-            "ms",
-            middle(ours[asked]),
-            middle(theirs[asked]) if theirs else None,
-            Aim(1.0),
-            f"of 100, half took no longer; ours {_spread(ours[asked])}{_theirs(theirs, asked)}",
-            "`cargo install openscad-lsp`",
-        )
-        for asked in ASKED
+    """Ours beside openscad-lsp and the CSS server of VS Code, 2,000 lines each, an edit of each in turn."""
+    openscad, css = shutil.which("openscad-lsp"), shutil.which("vscode-css-language-server")
+    ours, pulled, theirs, theirs_pulled = _times(
+        shop,
+        EDITS,
+        _ours("m3d", long()),
+        _ours("m3d-pulled", long(), pull=True),
+        Subject("openscad", [openscad, "--stdio"], "openscad", _openscad()) if openscad else None,
+        Subject("css", [css, "--stdio"], "css", _css(), pull=True) if css else None,
+    )
+    openscad_lsp = "openscad-lsp", "`cargo install openscad-lsp`"
+    css_server = "VS Code's CSS server", "`npm install vscode-langservers-extracted`"
+    return [
+        *(
+            _beside(
+                f"server-{asked}", f"language server, 2,000 lines, an edit: {asked}", openscad_lsp, ours, theirs, asked
+            )
+            for asked in ASKED
+        ),
+        _beside("server-pull", "the same, diagnostics asked for", css_server, pulled, theirs_pulled, "diagnostics"),
     ]
-    css = shutil.which("vscode-css-language-server")
-    pulled = css and _times(shop, "css", Subject([css, "--stdio"], "css", _css(), pull=True))
-    own = _times(shop, "m3d", _ours(shop, long(), pull=True))["diagnostics"]
-    note = f"both are asked for them; ours {_spread(own)}{_theirs(pulled, 'diagnostics')}"
-    work, missing = "the same, diagnostics asked for", "`npm install vscode-langservers-extracted`"
-    theirs_pulled = middle(pulled["diagnostics"]) if pulled else None
-    reference = "VS Code's CSS server"
-    return [*results, Result("server-pull", work, reference, "ms", middle(own), theirs_pulled, None, note, missing)]
+
+
+def _beside(
+    row: str, work: str, reference: tuple[str, str], ours: Times | None, theirs: Times | None, asked: str
+) -> Result:
+    """Our server beside another one, which is left out where it is not installed."""
+    assert ours is not None
+    own, other = ours[asked], theirs and theirs[asked]
+    note = f"of {EDITS} edits, half took no longer; ours {_spread(own)}{f'; theirs {_spread(other)}' if other else ''}"
+    name, missing = reference
+    return Result(row, work, name, "ms", middle(own), middle(other) if other else None, Aim(1.0), note, missing)
 
 
 def large(shop: Workshop) -> list[Result]:
@@ -69,7 +79,8 @@ def large(shop: Workshop) -> list[Result]:
         ("server-50k", long(2200), "a scene of {lines:,} lines"),
         ("server-terrain", shop.scene("terrain").read_text(), "the terrain, {megabytes:.0f} MB of text"),
     ):
-        times = _times(shop, name, _ours(shop, text), edits=30)
+        [times] = _times(shop, 30, _ours(name, text))
+        assert times is not None
         what = says.format(lines=text.count("\n"), megabytes=len(text) / 1e6)
         note = "; ".join(f"{asked} {_spread(times[asked])}" for asked in ASKED)
         results.append(
@@ -88,41 +99,60 @@ def large(shop: Workshop) -> list[Result]:
     return results
 
 
-def _ours(shop: Workshop, text: str, *, pull: bool = False) -> Subject:
-    return Subject([shop.command("m3d-lsp")], "m3d", text, pull)
+def _ours(name: str, text: str, *, pull: bool = False) -> Subject:
+    return Subject(name, [Workshop.command("m3d-lsp")], "m3d", text, pull)
 
 
-def _times(shop: Workshop, name: str, subject: Subject, edits: int = EDITS) -> dict[str, list[float]]:
-    """Milliseconds from an edit to its diagnostics, and from asking for a hover and for a completion to the answer."""
-    uri = (shop.folder / f"edited.{subject.language}").as_uri()
+def _times(shop: Workshop, edits: int, *subjects: Subject | None) -> list[Times | None]:
+    """Of each server, the milliseconds from each edit to its diagnostics, and from asking for a hover and for a
+    completion to the answer. They take turns, so that a busy moment falls on all alike."""
+    there = {subject.name: _edited(shop.folder, subject) for subject in subjects if subject is not None}
+    rounds = list(islice(zip(*there.values(), strict=True), WARM_UP, WARM_UP + edits))
+    for session in there.values():
+        session.close()
+    columns = dict(zip(there, zip(*rounds, strict=True), strict=True))
+    return [
+        None if subject is None else {asked: [times[asked] for times in columns[subject.name]] for asked in ASKED}
+        for subject in subjects
+    ]
+
+
+def _edited(folder: Path, subject: Subject) -> Generator[dict[str, float]]:
+    """Edits a text, again and again: what each edit took."""
+    uri = (folder / f"edited.{subject.language}").as_uri()
     document = {"uri": uri, "languageId": subject.language, "version": 0, "text": subject.text}
     capabilities: dict[str, Any] = {"textDocument": {"diagnostic": {}} if subject.pull else {"publishDiagnostics": {}}}
     places = [match.span() for match in re.finditer(r"(?<=[ \[(])\d+(?=[ ,;)\]p])", subject.text)]
     chance = random.Random(1993)
-    times: dict[str, list[float]] = {asked: [] for asked in ASKED}
-    with Client(subject.command, shop.folder / f"{name}-server.log") as client:
+    with Client(subject.command, folder / f"{subject.name}-server.log") as client:
         client.request("initialize", {"processId": None, "rootUri": None, "capabilities": capabilities})
         client.notify("initialized", {})
         # What comes of this is not waited for: openscad-lsp tells nothing of a text until it changes.
         client.notify("textDocument/didOpen", {"textDocument": document})
-        text, version = subject.text, 0
-        for number in range(WARM_UP + edits):
+        text = subject.text
+        for version in count(1, 2):
             start, end = chance.choice(places)
-            for new in (str(chance.randint(1, 9)), subject.text[start:end]):
-                version += 1
-                change = {"range": _range(text, start, end), "text": new}
-                text = text[:start] + new + text[end:]
-                end = start + len(new)
-                started = time.perf_counter()
-                identifier = {"uri": uri, "version": version}
-                client.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]})
-                found = [_diagnostics(client, uri, version, subject.pull) - started]
-                where = {"textDocument": {"uri": uri}, "position": _position(text, text.rfind("\n", 0, start) + 6)}
-                found += [client.timed(f"textDocument/{asked}", where)[1] for asked in ASKED[1:]]
-            if number >= WARM_UP:
-                for asked, seconds in zip(ASKED, found, strict=True):
-                    times[asked].append(1000 * seconds)
-    return times
+            changed = text[:start] + str(chance.randint(1, 9)) + text[end:]
+            yield _edit(client, subject, uri, version, (text, changed), (start, end))
+            _edit(client, subject, uri, version + 1, (changed, text), (start, start + 1))
+
+
+def _edit(
+    client: Client, subject: Subject, uri: str, version: int, texts: tuple[str, str], span: tuple[int, int]
+) -> dict[str, float]:
+    """One edit: what stands at `span` is replaced, which makes the second text of the first."""
+    before, after = texts
+    start, end = span
+    new = after[start : len(after) - (len(before) - end)]
+    change = {"range": {"start": _position(before, start), "end": _position(before, end)}, "text": new}
+    identifier = {"uri": uri, "version": version}
+    started = time.perf_counter()
+    client.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]})
+    found = {"diagnostics": 1000 * (_diagnostics(client, uri, version, subject.pull) - started)}
+    where = {"textDocument": {"uri": uri}, "position": _position(after, after.rfind("\n", 0, start) + 6)}
+    for asked in ASKED[1:]:
+        found[asked] = 1000 * client.timed(f"textDocument/{asked}", where)[1]
+    return found
 
 
 def _diagnostics(client: Client, uri: str, version: int, pull: bool) -> float:
@@ -138,10 +168,6 @@ def _diagnostics(client: Client, uri: str, version: int, pull: bool) -> float:
     return client.wait(published).at
 
 
-def _range(text: str, start: int, end: int) -> dict[str, Any]:
-    return {"start": _position(text, start), "end": _position(text, end)}
-
-
 def _position(text: str, offset: int) -> dict[str, int]:
     return {"line": text.count("\n", 0, offset), "character": offset - text.rfind("\n", 0, offset) - 1}
 
@@ -149,10 +175,6 @@ def _position(text: str, offset: int) -> dict[str, int]:
 def _spread(times: Sequence[float]) -> str:
     ordered = sorted(times)
     return f"{middle(times):.1f} ms, 95 of 100 within {ordered[int(0.95 * len(ordered))]:.1f} ms"
-
-
-def _theirs(times: dict[str, list[float]] | str | None, asked: str) -> str:
-    return f"; theirs {_spread(times[asked])}" if isinstance(times, dict) else ""
 
 
 def _openscad() -> str:

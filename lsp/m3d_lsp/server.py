@@ -9,12 +9,13 @@ import pkgutil
 from collections.abc import Awaitable, Callable
 from importlib import import_module
 from importlib.metadata import version
-from typing import Any, cast
+from threading import Event
+from typing import Any, BinaryIO, cast
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from . import feature, view
+from . import feature, standard_io, view
 from .document import Document
 from .documents import Documents
 from .feature import diagnostics
@@ -36,6 +37,21 @@ class Server(LanguageServer):
         super().__init__("m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
         self.documents = Documents(self._looked_at)
         self.previews = Previews()
+
+    def start_io(self, stdin: BinaryIO | None = None, stdout: BinaryIO | None = None) -> None:
+        """Talk over standard input and output until the client leaves."""
+        if stdin is not None or stdout is not None or not standard_io.can_wait():
+            super().start_io(stdin, stdout)
+            return
+        self._stop_event = Event()
+        try:
+            asyncio.run(standard_io.talk(self.protocol, self._stop_event))
+        except BrokenPipeError:
+            log.error("the client does not listen any more")
+        except (KeyboardInterrupt, SystemExit):
+            pass
+        finally:
+            self.shutdown()
 
     def shutdown(self) -> None:
         self.previews.stop()

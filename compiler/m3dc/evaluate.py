@@ -136,7 +136,7 @@ class Evaluator:
         return value
 
     def _whole(self, block: program.Block) -> Record:
-        """A new record that is whole: no later block changes it."""
+        """A new record, up to its closing brace."""
         record = self._record(block)
         FINISH[record.block](record, self._findings, whole=True)
         return record
@@ -179,16 +179,15 @@ class Evaluator:
         elif block.entry.adds:
             record.parts += (self._once(block.span, block, partial(self._whole, block)),)
         else:
-            if block.source is not None:
-                source = self._variables[block.source.text]
-                assert isinstance(source, Record)
-                record.nested[keyword] = source.copy(self._findings.absolute(block.span))
             nested = record.nested.get(keyword)
-            if nested is None:
-                nested = record.nested[keyword] = Record(keyword, self._findings.absolute(block.span))
-            nested.broken |= block.broken
-            self._body(nested, block.body)
-            FINISH[keyword](nested, self._findings, whole=True)
+            if nested is None or block.source is not None:
+                # A copy, because a later block of the same kind changes it.
+                made = self._once(block.span, block, partial(self._whole, block))
+                nested = record.nested[keyword] = made.copy(made.span)
+            else:
+                nested.broken |= block.broken
+                self._body(nested, block.body)
+                FINISH[keyword](nested, self._findings, whole=True)
             if keyword == "SKY":
                 self._lights.append(nested.member("SUN"))
 

@@ -7,8 +7,7 @@ it makes of an item can be made of steps in turn: those of them that nothing cha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Hashable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from .diagnostics import Diagnostic, Findings
@@ -42,13 +41,14 @@ class Ledger(Generic[V]):
         self._entries: dict[str, V] = {}
         self._notes: Notes[V] = Notes()
 
-    @contextmanager
-    def noted(self) -> Generator[Notes[V]]:
-        """What is done meanwhile, noted by itself; in the end it is part of what is noted about it."""
-        outer, self._notes = self._notes, Notes()
-        yield self._notes
-        inner, self._notes = self._notes, outer
+    def noted(self, work: Callable[[], T]) -> tuple[T, Notes[V]]:
+        """The outcome of `work`, and what it did. That is part of what is noted about those who asked for it, too."""
+        outer = self._notes
+        inner = self._notes = Notes()
+        result = work()
+        self._notes = outer
         outer.add(inner)
+        return result, inner
 
     def get(self, name: str) -> V | None:
         """The entry, or None."""
@@ -73,8 +73,11 @@ class Ledger(Generic[V]):
 
     def matches(self, notes: Notes[V]) -> bool:
         """Whether entries are what they were then found to be."""
-        entries = self._entries
-        return all(entries.get(name) is entry or entries.get(name) == entry for name, entry in notes.read.items())
+        for name, then in notes.read.items():
+            now = self._entries.get(name)
+            if now is not then and now != then:
+                return False
+        return True
 
     def repeat(self, notes: Notes[V]) -> None:
         """Do what was done then."""
@@ -122,8 +125,7 @@ class Steps:
             return step.result
         reported = len(findings.found)
         self._before, self._now = {} if step is None else step.within, {}
-        with ledger.noted() as notes:
-            result = work()
+        result, notes = ledger.noted(work)
         if not notes.everything:
             now[key] = _Step(of, notes, self._now, result, tuple(findings.found[reported:]))
         self._before, self._now = before, now

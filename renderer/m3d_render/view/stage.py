@@ -268,8 +268,6 @@ class Stage:
             "color": _INK,
             "height": 0.1,
             "width": 0.34,
-            "fill": True,
-            "background_color": _PAPER,
         }
         bar |= {"position_x": 0.33, "position_y": 0.02, "title_font_size": 13, "label_font_size": 12}
         actor = self._add("rays", lines, scalars=title, cmap=_ANGLES, line_width=1, lighting=False, scalar_bar_args=bar)

@@ -12,7 +12,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from m3d_render import _kernel, command, wireframe_cli
+from m3d_render import command, wireframe_cli
 from m3d_render.command import FINE, INTERRUPTED, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.interrupt import Interrupt
 from m3d_render.metadata import metadata
@@ -41,15 +41,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="m3d-render",
+    parser = command.parser(
+        "m3d-render",
         usage="m3d-render SCENE -o PICTURE [options]\n       m3d-render SCENE -o PICTURE --wireframe [options]\n"
         "       m3d-render SCENE.m3d --check-normals",
         description="Render a scene to a picture; rays follow the scene's MIRAGE unless --straight.",
-        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted: the finished rows "
-        "are written.",
+        interrupted="the finished rows are written",
     )
-    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+    command.add_scene(parser)
     parser.add_argument(
         "-o",
         dest="output",
@@ -57,7 +56,6 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         help=f"where to write the picture; its suffix names the format: {', '.join(SUFFIXES)}",
     )
-    parser.add_argument("--version", action="version", version=f"m3d-render {_kernel.VERSION}")
     parser.add_argument(
         "--check-normals",
         action="store_true",

@@ -12,12 +12,31 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from m3d_render import _kernel
 from m3dc import compile as compile_scene
 from m3dc import m3ir, report
 from m3dc.ir import SceneIR
 from m3dc.levels import Levels
 
 FINE, SCENE_ERROR, USAGE_ERROR, INTERRUPTED = 0, 1, 2, 130
+
+
+_EXIT_STATUS = "Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted"
+
+
+def parser(
+    program: str, description: str, *, usage: str | None = None, interrupted: str = ""
+) -> argparse.ArgumentParser:
+    """A command's options, as far as all commands have them; `interrupted` says what an interruption leaves."""
+    epilog = f"{_EXIT_STATUS}{interrupted and f': {interrupted}'}."
+    made = argparse.ArgumentParser(prog=program, usage=usage, description=description, epilog=epilog)
+    made.add_argument("--version", action="version", version=f"{program} {_kernel.VERSION}")
+    return made
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """The argument that `load` takes."""
+    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
 
 
 class CommandError(Exception):

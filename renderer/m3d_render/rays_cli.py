@@ -15,7 +15,7 @@ from typing import IO
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render import _kernel, command
+from m3d_render import command
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.optics import trace_crossings, trace_paths
 from m3d_render.ray_options import angles, distances
@@ -35,14 +35,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="m3d-rays",
-        description="Trace rays from a scene's observer through its MIRAGE, without a picture. The table has a row "
+    parser = command.parser(
+        "m3d-rays",
+        "Trace rays from a scene's observer through its MIRAGE, without a picture. The table has a row "
         "for each crossing of a layer of the air, or for each distance of --at; a ray's last row says in the column "
         "`end` why it ended: ground, top, range or segments.",
-        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
     )
-    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+    command.add_scene(parser)
     parser.add_argument(
         "--angles",
         required=True,
@@ -54,7 +53,6 @@ def _parser() -> argparse.ArgumentParser:
         "--at", type=distances, metavar="R1,R2,...", help="horizontal distances, m, instead of every crossing"
     )
     parser.add_argument("--csv", default="-", metavar="FILE", help="where to write the table; - is standard output")
-    parser.add_argument("--version", action="version", version=f"m3d-rays {_kernel.VERSION}")
     return parser
 
 

@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render import _kernel, command
+from m3d_render import command
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.plot import figure, profile, rays, transfer
 from m3d_render.ray_options import angles, distances
@@ -46,13 +46,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="m3d-plot",
-        description="Draw a figure of a scene's air: its temperature profile, the rays from the eye, or at which angle "
+    parser = command.parser(
+        "m3d-plot",
+        "Draw a figure of a scene's air: its temperature profile, the rays from the eye, or at which angle "
         "each height at a distance is seen.",
-        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
     )
-    parser.add_argument("--version", action="version", version=f"m3d-plot {_kernel.VERSION}")
     figures = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
     shape = _add(
         figures,
@@ -106,7 +104,7 @@ Work = Callable[[SceneIR, argparse.Namespace], tuple[Table, Draw]]
 def _add(figures: Any, work: Work, name: str, size: tuple[float, float], says: str) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = figures.add_parser(name, help=says, description=f"Draw {says}.")
     parser.set_defaults(work=work)
-    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+    command.add_scene(parser)
     parser.add_argument(
         "-o", dest="output", metavar="FIGURE", type=Path, help=f"where to draw it: {', '.join(figure.SUFFIXES)}"
     )

@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from m3d_render import _kernel, command
+from m3d_render import command
 from m3d_render.command import FINE, INTERRUPTED, USAGE_ERROR, CommandError
 from m3d_render.view.backend import check_window, load_pyvista
 from m3d_render.view.fan import MOST_RAYS, RAYS
@@ -36,15 +36,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="m3d-view",
-        description="Show a scene in a window to walk around in: its solids in their colours, its camera, lights, "
+    parser = command.parser(
+        "m3d-view",
+        "Show a scene in a window to walk around in: its solids in their colours, its camera, lights, "
         "extent, and the rays from the eye as the air bends them. The window follows the file as it is saved; the keys "
         "are written in it, and a click names a solid.",
-        epilog="Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.",
     )
-    parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
-    parser.add_argument("--version", action="version", version=f"m3d-view {_kernel.VERSION}")
+    command.add_scene(parser)
     parser.add_argument(
         "--screenshot",
         type=Path,

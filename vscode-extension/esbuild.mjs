@@ -27,7 +27,7 @@ const page = {
 const endToEnd = (folder) => ({
   ...common,
   minify: false,
-  entryPoints: ["test/e2e/editing.test.ts"],
+  entryPoints: ["test/e2e/editing.test.ts", "test/e2e/restricted.test.ts"],
   outdir: folder,
   platform: "node",
   format: "esm",

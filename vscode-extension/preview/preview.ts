@@ -16,6 +16,9 @@ import { Viewport, type Point } from "./viewport";
 /** How long the text has rested before a full picture is made, in ms. */
 const REST = 400;
 
+/** How long the keys have rested before the picture follows, in ms: what an editor does at each of them comes first. */
+const CALM = 60;
+
 /** How long the pointer has rested before it is asked what it is on, in ms. */
 const DWELL = 120;
 
@@ -42,6 +45,8 @@ export class Preview implements Events {
   /** Runs until the text has rested. */
   private rest: ReturnType<typeof setTimeout> | undefined;
   private dwell: ReturnType<typeof setTimeout> | undefined;
+  /** Run until the keys have rested. */
+  private readonly calm: Partial<Record<"picture" | "cursor", ReturnType<typeof setTimeout>>> = {};
   private pointer: { at: Point; optics: Optics; hit: string } | null = null;
   private asked = 0;
   private readonly masksAsked: Record<Optics, number> = { mirage: 0, straight: 0 };
@@ -102,9 +107,12 @@ export class Preview implements Events {
     }
     const first = this.shown().every(({ answer }) => answer === null);
     this.scene_ = scene;
+    clearTimeout(this.calm.picture);
     // A text with errors has no picture of its own; the last good one is asked for only if it is not there.
-    if (scene.render && (first || !scene.errors)) {
-      this.render(first ? "full" : "draft");
+    if (scene.render && first) {
+      this.render("full");
+    } else if (scene.render && !scene.errors) {
+      this.whenCalm("picture", () => this.render("draft"));
     } else if (this.rest !== undefined) {
       this.whenRested();
     }
@@ -133,9 +141,11 @@ export class Preview implements Events {
   }
 
   cursor(): void {
-    for (const { optics } of this.shown()) {
-      void this.askMask(optics);
-    }
+    this.whenCalm("cursor", () => {
+      for (const { optics } of this.shown()) {
+        void this.askMask(optics);
+      }
+    });
   }
 
   visible(visible: boolean): void {
@@ -272,6 +282,11 @@ export class Preview implements Events {
     }
   }
 
+  private whenCalm(what: "picture" | "cursor", act: () => void): void {
+    clearTimeout(this.calm[what]);
+    this.calm[what] = setTimeout(act, CALM);
+  }
+
   /** Makes a full picture once nothing has changed for a while. */
   private whenRested(): void {
     this.stopResting();
@@ -366,7 +381,7 @@ export class Preview implements Events {
     });
     const { frame } = this.viewport;
     this.view.setDivider(this.divider, frame.x + this.divider * frame.width);
-    this.view.setZoom(this.viewport.scale * devicePixelRatio);
+    this.view.setZoom(full ? this.viewport.scale * devicePixelRatio : null);
     this.view.setName(this.scene_?.name ?? "no scene", full ? `, ${full.width} by ${full.height} pixels` : "");
     this.showState(shown);
     if (pointer === null || under === null) {

@@ -118,8 +118,8 @@ export class View {
     this.whole.checked = on;
   }
 
-  setZoom(scale: number): void {
-    this.zoom.textContent = `${Math.round(scale * 100)} %`;
+  setZoom(scale: number | null): void {
+    this.zoom.textContent = scale === null ? "–" : `${Math.round(scale * 100)} %`;
   }
 
   setName(name: string, size: string): void {

@@ -6,9 +6,12 @@
 import assert from "node:assert/strict";
 import * as fs from "node:fs";
 import * as path from "node:path";
-import { after, before, test } from "node:test";
+import { after, before } from "node:test";
+
+import type { Locator } from "playwright-core";
 
 import { latencies, median } from "./latency";
+import { stepper } from "./step";
 import { OUT, startVSCode, type VSCode } from "./vscode";
 import { Workbench } from "./workbench";
 
@@ -23,9 +26,10 @@ const WALL: [number, number] = [0.5, 0.47];
 let vscode: VSCode;
 let workbench: Workbench;
 const measured: Record<string, unknown> = {};
+const step = stepper(() => workbench);
 
 before(async () => {
-  vscode = await startVSCode();
+  vscode = await startVSCode("editing", true);
   workbench = await Workbench.open(vscode);
 });
 
@@ -34,18 +38,6 @@ after(async () => {
   await workbench.close();
   await vscode.stop();
 });
-
-/** One thing a person does; if it fails there is a screenshot of how it was. */
-function step(name: string, act: () => Promise<void>): void {
-  test(name, async () => {
-    try {
-      await act();
-    } catch (fault) {
-      await workbench.screenshot(`failed-${name.replace(/\W+/g, "-")}`);
-      throw fault;
-    }
-  });
-}
 
 step("a scene opens, coloured, and the server starts", async () => {
   await workbench.openScene(SCENE);
@@ -227,6 +219,35 @@ step("both kinds of light are shown under a slider", async () => {
   await workbench.screenshot("both");
 });
 
+step("the picture is saved", async () => {
+  const target = path.join(vscode.folder, "merman.png");
+  await workbench.preview.getByRole("button", { name: "Save" }).click();
+  const proposed = workbench.page.locator(".quick-input-widget:visible .quick-input-box input");
+  await workbench.eventually("a file is proposed", async () => (await proposed.inputValue()) === target);
+  await workbench.page.keyboard.press("Enter");
+  await workbench.page.locator(".notification-toast", { hasText: "merman.png is written" }).waitFor();
+  assert.equal(fs.readFileSync(target).toString("latin1", 1, 4), "PNG");
+  await workbench.command("Notifications: Clear All Notifications");
+});
+
+step("a pinned preview keeps its scene, and goes on to follow the editor", async () => {
+  const tab = (name: string): Locator => workbench.page.locator(`.tab[aria-label*="${name}"]`);
+  await workbench.preview.getByRole("button", { name: "Pin" }).click();
+  await tab(`[Preview ${SCENE}]`).waitFor();
+  await workbench.openScene(BALLS);
+  await workbench.command("M3D: Open Preview to the Side");
+  await tab(`Preview ${BALLS}`).waitFor();
+  assert.equal(await tab(`[Preview ${SCENE}]`).count(), 1);
+  await workbench.screenshot("pinned");
+  await tab(`[Preview ${SCENE}]`).click();
+  await workbench.preview.getByRole("button", { name: "Pin" }).click();
+  await tab(`[Preview ${SCENE}]`).waitFor({ state: "detached" });
+  assert.equal(await tab("Preview ").count(), 1, "two previews follow the editor");
+  await workbench.focus(SCENE);
+  await tab(`Preview ${SCENE}`).waitFor();
+  await workbench.pictureIsDone();
+});
+
 step("the dump opens beside the scene and follows the cursor", async () => {
   await workbench.openScene(SCENE);
   await workbench.goTo(SCENE, "RECTANGLE {");
@@ -254,6 +275,8 @@ step("a scene is compiled by its task", async () => {
 });
 
 step("it is seen in high contrast", async () => {
+  await workbench.focus(SCENE);
+  await workbench.command("M3D: Open Preview to the Side");
   await workbench.page.emulateMedia({ forcedColors: "active", colorScheme: "dark" });
   const backgrounds = new Set<string>();
   for (const name of ["Mirage", "Straight", "Both"]) {

@@ -11,7 +11,6 @@ export const OUT = process.env.OUT ?? path.join(REPOSITORY, "out");
 const ENTRY = path.join(OUT, "e2e/node_modules/code-server/out/node/entry.js");
 
 const SETTINGS = {
-  "security.workspace.trust.enabled": false,
   "telemetry.telemetryLevel": "off",
   "workbench.startupEditor": "none",
   "workbench.tips.enabled": false,
@@ -36,8 +35,11 @@ export interface VSCode {
   stop(): Promise<void>;
 }
 
-/** Starts one; its workspace has the examples of the repository and, in `.venv`, its programs. */
-export async function startVSCode(): Promise<VSCode> {
+/**
+ * Starts one; its workspace has the examples of the repository and, in `.venv`, its programs. A workspace that is not
+ * `trusted` is opened in Restricted Mode, and the machine's settings name the server.
+ */
+export async function startVSCode(name: string, trusted: boolean): Promise<VSCode> {
   const run = fs.mkdtempSync(path.join(os.tmpdir(), "m3d-workbench-"));
   const folder = path.join(run, "scenes");
   fs.mkdirSync(folder);
@@ -46,9 +48,19 @@ export async function startVSCode(): Promise<VSCode> {
   }
   fs.symlinkSync(path.join(REPOSITORY, ".venv"), path.join(folder, ".venv"));
   fs.mkdirSync(path.join(run, "data/User"), { recursive: true });
+  fs.mkdirSync(path.join(run, "data/Machine"));
   fs.mkdirSync(path.join(run, "home"));
-  const settings = { ...SETTINGS, "files.exclude": { ".venv": true } };
+  const settings = {
+    ...SETTINGS,
+    "files.exclude": { ".venv": true },
+    "security.workspace.trust.enabled": !trusted,
+    "security.workspace.trust.startupPrompt": "never",
+  };
   fs.writeFileSync(path.join(run, "data/User/settings.json"), JSON.stringify(settings, null, 2));
+  if (!trusted) {
+    const machine = { "m3d.server.path": path.join(REPOSITORY, ".venv/bin/m3d-lsp") };
+    fs.writeFileSync(path.join(run, "data/Machine/settings.json"), JSON.stringify(machine));
+  }
 
   const env: NodeJS.ProcessEnv = { ...process.env, EXTENSIONS_GALLERY: "{}", HOME: path.join(run, "home") };
   // Within a terminal of VS Code the command line would talk to that one.
@@ -64,17 +76,17 @@ export async function startVSCode(): Promise<VSCode> {
     throw new Error(`the extension cannot be installed:\n${installed.stdout}${installed.stderr}`);
   }
   const port = await freePort();
-  const log = fs.openSync(path.join(OUT, "workbench.log"), "w");
+  const log = fs.openSync(path.join(OUT, `${name}.log`), "w");
   const options =
-    "--auth none --disable-telemetry --disable-update-check --disable-workspace-trust " +
-    "--disable-getting-started-override --ignore-last-opened";
+    "--auth none --disable-telemetry --disable-update-check --disable-getting-started-override --ignore-last-opened" +
+    (trusted ? " --disable-workspace-trust" : "");
   const server = spawn(
     process.execPath,
     [ENTRY, ...places, ...options.split(" "), "--bind-addr", `127.0.0.1:${port}`],
     { env, stdio: ["ignore", log, log] },
   );
   const url = `http://127.0.0.1:${port}`;
-  await answers(`${url}/healthz`, server);
+  await answers(`${url}/healthz`, server, `${name}.log`);
   return {
     url: `${url}/?folder=${folder}`,
     folder,
@@ -102,7 +114,7 @@ function freePort(): Promise<number> {
   });
 }
 
-async function answers(url: string, server: ChildProcess): Promise<void> {
+async function answers(url: string, server: ChildProcess, log: string): Promise<void> {
   for (let tries = 0; tries < 600 && server.exitCode === null; tries++) {
     try {
       if ((await fetch(url)).ok) {
@@ -113,7 +125,7 @@ async function answers(url: string, server: ChildProcess): Promise<void> {
     }
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
-  throw new Error(`VS Code does not answer; ${path.join(OUT, "workbench.log")} may tell why`);
+  throw new Error(`VS Code does not answer; ${path.join(OUT, log)} may tell why`);
 }
 
 function ended(server: ChildProcess): Promise<void> {

@@ -137,7 +137,7 @@ export class Workbench {
   // --- the preview ---------------------------------------------------------------------------------------------
 
   get preview(): FrameLocator {
-    return this.page.frameLocator("iframe.webview.ready").frameLocator("iframe#active-frame");
+    return this.page.frameLocator("iframe.webview.ready:visible").frameLocator("iframe#active-frame");
   }
 
   /** Waits until the picture is whole and that of the text. */

@@ -187,8 +187,8 @@ METHOD = """\
   every ray ends. Embree (`bench/embree/primary.c`) gets the same camera, triangles and spheres; a sample of either is
   the least of three pictures.
 - Curved and straight pictures are measured in eight bands by turns, and the bands' medians added.
-- The language servers get the same edits from one client (`bench/lsp_client.py`): a number is replaced in a text of
-  2,000 lines, and the time is taken until the diagnostics of that edit are there; then a hover and a completion.
+- The language servers get edits from one client (`bench/lsp_client.py`), each in its turn: a number is replaced in a
+  text of 2,000 lines, and the time is taken until its diagnostics are there; then a hover and a completion.
 - What is not installed is left out, and its column says so. `apt install povray libembree-dev` brings two.
 - Nothing here is a test: no suite fails because a machine was slow.
 """

@@ -238,6 +238,7 @@ step("a pinned preview keeps its scene, and goes on to follow the editor", async
   await workbench.command("M3D: Open Preview to the Side");
   await tab(`Preview ${BALLS}`).waitFor();
   assert.equal(await tab(`[Preview ${SCENE}]`).count(), 1);
+  await workbench.pictureIsDone();
   await workbench.screenshot("pinned");
   await tab(`[Preview ${SCENE}]`).click();
   await workbench.preview.getByRole("button", { name: "Pin" }).click();

@@ -46,7 +46,10 @@ export class Preview implements Events {
   private rest: ReturnType<typeof setTimeout> | undefined;
   private dwell: ReturnType<typeof setTimeout> | undefined;
   /** Run until the keys have rested. */
-  private readonly calm: Partial<Record<"picture" | "cursor", ReturnType<typeof setTimeout>>> = {};
+  private readonly calm: Record<"picture" | "cursor", ReturnType<typeof setTimeout> | undefined> = {
+    picture: undefined,
+    cursor: undefined,
+  };
   private pointer: { at: Point; optics: Optics; hit: string } | null = null;
   private asked = 0;
   private readonly masksAsked: Record<Optics, number> = { mirage: 0, straight: 0 };
@@ -107,13 +110,14 @@ export class Preview implements Events {
     }
     const first = this.shown().every(({ answer }) => answer === null);
     this.scene_ = scene;
-    clearTimeout(this.calm.picture);
+    const waiting = this.calm.picture !== undefined;
+    this.stopCalming("picture");
     // A text with errors has no picture of its own; the last good one is asked for only if it is not there.
     if (scene.render && first) {
       this.render("full");
     } else if (scene.render && !scene.errors) {
       this.whenCalm("picture", () => this.render("draft"));
-    } else if (this.rest !== undefined) {
+    } else if (this.rest !== undefined || waiting) {
       this.whenRested();
     }
     this.refresh();
@@ -283,8 +287,16 @@ export class Preview implements Events {
   }
 
   private whenCalm(what: "picture" | "cursor", act: () => void): void {
+    this.stopCalming(what);
+    this.calm[what] = setTimeout(() => {
+      this.calm[what] = undefined;
+      act();
+    }, CALM);
+  }
+
+  private stopCalming(what: "picture" | "cursor"): void {
     clearTimeout(this.calm[what]);
-    this.calm[what] = setTimeout(act, CALM);
+    this.calm[what] = undefined;
   }
 
   /** Makes a full picture once nothing has changed for a while. */

@@ -48,6 +48,11 @@ async function drawn(): Promise<void> {
   await settled();
 }
 
+/** Lets the keys rest for a moment. */
+function calm(): void {
+  vi.advanceTimersByTime(60);
+}
+
 async function rendered(version = 1, red = 10): Promise<void> {
   const { length } = host.asked;
   host.asked[length - 1]?.tile(plain(red));
@@ -78,9 +83,11 @@ test("while one types there are small pictures, and a full one when the text has
   scene();
   await host.asked[0]?.answer({ width: 200, height: 100 });
   scene({ version: 2 });
+  calm();
   expect(host.asked[1]?.request).toEqual({ optics: "mirage", maxWidth: 100, maxHeight: 50, samples: 1 });
   await host.asked[1]?.answer({ version: 2 });
   scene({ version: 3 });
+  calm();
   await host.asked[2]?.answer({ version: 3 });
   vi.advanceTimersByTime(399);
   expect(host.asked.length).toBe(3);
@@ -92,6 +99,7 @@ test("what is typed in error puts the full picture off, too", async () => {
   scene();
   await rendered();
   scene({ version: 2 });
+  calm();
   await rendered(2);
   vi.advanceTimersByTime(300);
   scene({ version: 3, errors: true });
@@ -109,8 +117,32 @@ test("nothing is rendered for a text with errors, and the picture says that it i
   expect(host.asked.length).toBe(1);
   expect(text(".m3d-badge")).toBe("Stale");
   scene({ version: 3 });
+  calm();
   await drawn();
   expect(host.asked.length).toBe(2);
+});
+
+test("between keys in quick succession nothing is rendered", async () => {
+  scene();
+  await rendered();
+  for (let version = 2; version < 6; version++) {
+    scene({ version });
+    vi.advanceTimersByTime(59);
+  }
+  expect(host.asked.length).toBe(1);
+  calm();
+  expect(host.asked.length).toBe(2);
+});
+
+test("what was right before an error is shown once the text has rested", async () => {
+  scene();
+  await rendered();
+  scene({ version: 2 });
+  scene({ version: 3, errors: true });
+  vi.advanceTimersByTime(399);
+  expect(host.asked.length).toBe(1);
+  vi.advanceTimersByTime(1);
+  expect(host.asked[1]?.request.maxWidth).toBe(200);
 });
 
 test("a text that waits to be saved makes the picture stale", async () => {
@@ -201,6 +233,7 @@ test("what the cursor is in is asked for again with each new picture", async () 
   await rendered();
   expect(host.calls).toEqual([["mask", "mirage"]]);
   host.events?.cursor();
+  calm();
   expect(host.calls.length).toBe(2);
 });
 

@@ -12,7 +12,6 @@ from .ir import Span
 
 LONGEST_TITLE = 60  # characters
 
-_MARK = re.compile(rb"/\*|\*/")
 _FRAME = re.compile(r"^[\s/*=#~_-]+|[\s/*=#~_-]+$")
 _SENTENCE_END = re.compile(r"(?<=[.:;])\s")
 _DIRECTIVE = re.compile(r"m3d:")
@@ -77,8 +76,7 @@ class Comments:
 
 
 def _spans(data: bytes) -> list[Span]:
-    marks = (mark for start, end in long_tables.outside(data) for mark in _MARK.finditer(data, start, end))
-    return [(begin, len(data) if end is None else end) for begin, end in outermost(marks)]
+    return [(begin, len(data) if end is None else end) for begin, end in outermost(data, long_tables.outside(data))]
 
 
 def _title(comment: str) -> str | None:

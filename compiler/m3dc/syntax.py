@@ -223,13 +223,9 @@ def _find_control(data: bytes, outside: list[Span]) -> int | None:
     return next((match.start() for match in matches if match), None)
 
 
-_DELIMITER = re.compile(rb"/\*|\*/")
-
-
 def _unclosed_comment(data: bytes, outside: list[Span]) -> int | None:
     """Where the comment opens that is never closed, if any: the outermost one."""
-    marks = (match for start, end in outside for match in _DELIMITER.finditer(data, start, end))
-    return next((begin for begin, end in outermost(marks) if end is None), None)
+    return next((begin for begin, end in outermost(data, outside) if end is None), None)
 
 
 class _Builder:

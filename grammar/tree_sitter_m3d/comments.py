@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import AnyStr
-
-# Compiled when they are first used: m3dc reads this file whenever it starts, and seldom blanks a comment.
-_MARK = r"/\*|\*/"
-_INK = r"[^\n]"
+from typing import Any
 
 
 def blank_comments(text: str) -> str:
@@ -17,19 +13,22 @@ def blank_comments(text: str) -> str:
         return text
     parts: list[str] = []
     done = 0
-    for begin, end in outermost(re.finditer(_MARK, text)):
+    for begin, end in outermost(text):
         if end is not None:
-            parts += [text[done:begin], re.sub(_INK, " ", text[begin:end])]
+            parts += [text[done:begin], re.sub(r"[^\n]", " ", text[begin:end])]
             done = end
     return "".join([*parts, text[done:]])
 
 
-def outermost(marks: Iterable[re.Match[AnyStr]]) -> Iterator[tuple[int, int | None]]:
-    """Where each comment begins and ends that is not within another, of all `/*` and `*/` of a text in order; one that
-    is never closed has no end."""
+def outermost(text: str | bytes, ranges: Iterable[tuple[int, int]] | None = None) -> Iterator[tuple[int, int | None]]:
+    """Where each comment of a text begins and ends that is not within another; one that is never closed has no end.
+    With `ranges`, only the `/*` and `*/` in them count."""
+    opening = b"/*" if isinstance(text, bytes) else "/*"
+    marks: re.Pattern[Any] = re.compile(rb"/\*|\*/" if isinstance(text, bytes) else r"/\*|\*/")
+    whole = [(0, len(text))]
     begin = depth = 0
-    for mark in marks:
-        if mark[0][:1] in ("/", b"/"):
+    for mark in (m for start, end in (whole if ranges is None else ranges) for m in marks.finditer(text, start, end)):
+        if mark[0] == opening:
             if depth == 0:
                 begin = mark.start()
             depth += 1

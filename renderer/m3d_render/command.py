@@ -11,10 +11,11 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TextIO
 
 from m3d_render import _kernel
+from m3dc import Result, m3ir, report
 from m3dc import compile as compile_scene
-from m3dc import m3ir, report
 from m3dc.ir import SceneIR
 from m3dc.levels import Levels
 
@@ -79,11 +80,18 @@ def load(scene: str) -> SceneIR:
             raise CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
         except m3ir.FormatError as error:
             raise CommandError(USAGE_ERROR, f"{scene}: {error}") from None
-    result = compile_scene(read(scene), scene)
-    report.print_human(Levels().apply(result.diagnostics), result.source, sys.stderr)
+    result = compiled(scene, sys.stderr)
     if not result.ok:
         raise CommandError(SCENE_ERROR)
     return result.ir
+
+
+def compiled(scene: str, to: TextIO) -> Result:
+    """What comes of a scene file, or of standard input; what is wrong with it is written. Raises CommandError where
+    there is nothing to read."""
+    result = compile_scene(read(scene), scene)
+    report.print_human(Levels().apply(result.diagnostics), result.source, to)
+    return result
 
 
 def read(scene: str) -> bytes:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO
 import pytest
+from exit_status import exit_status
 from scene_builder import merman
 
 from m3d_render import plot
@@ -126,11 +127,7 @@ def test_zones_are_told_apart_without_colour(compiled):
 )
 def test_what_cannot_be_done_is_said(compiled, capsys, arguments, status, says):
     Path("straight.m3d").write_text("SOLID { SPHERE { } }")
-    try:
-        found = main(arguments)
-    except SystemExit as ended:
-        found = ended.code
-    assert found == status
+    assert exit_status(main, arguments) == status
     assert says in capsys.readouterr().err
     assert not list(Path().glob("*.svg"))
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exit_status import exit_status
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 
 import m3dc
@@ -384,11 +385,7 @@ def test_what_goes_wrong_is_explained(scene, monkeypatch, capsys, arguments, sta
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.setattr("sys.platform", "linux")
     Path("broken.m3d").write_text("SOLID { SPHERE { RADIUS -1 } }")
-    try:
-        ended = main(arguments)
-    except SystemExit as usage:
-        ended = usage.code
-    assert ended == status
+    assert exit_status(main, arguments) == status
     assert message in capsys.readouterr().err
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO
 import pytest
+from exit_status import exit_status
 
 import m3dc
 from m3d_render import wireframe
@@ -220,10 +221,6 @@ def test_what_cannot_be_drawn_is_said(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("a.m3d").write_text(VIEW)
-    try:
-        status = main(["a.m3d", "-o", "a.png", *arguments])
-    except SystemExit as ended:
-        status = ended.code
-    assert status == 2
+    assert exit_status(main, ["a.m3d", "-o", "a.png", *arguments]) == 2
     assert says in capsys.readouterr().err
     assert not list(Path().glob("*.png"))

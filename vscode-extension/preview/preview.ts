@@ -7,6 +7,7 @@
 import { Exposure, type Limits, type Quality } from "./exposure";
 import type { Events, Hit, Host, Mask, Optics, Options, Scene, Show } from "./host";
 import { listenToKeys, listenToPointer } from "./input";
+import { Pause } from "./pause";
 import { css, hitText, pixelText } from "./readout";
 import { Stage } from "./stage";
 import { badge } from "./state";
@@ -42,13 +43,11 @@ export class Preview implements Events {
   private missed = false;
   private reason: string | null = null;
   private divider = 0.5;
-  /** Runs until the text has rested. */
-  private rest: ReturnType<typeof setTimeout> | undefined;
-  private dwell: ReturnType<typeof setTimeout> | undefined;
-  /** Run until the keys have rested. */
-  private readonly calm: Record<"picture" | "cursor", ReturnType<typeof setTimeout> | undefined> = {
-    picture: undefined,
-    cursor: undefined,
+  private readonly rested = new Pause(REST, () => this.render("full"));
+  private readonly dwelt = new Pause(DWELL, () => void this.ask());
+  private readonly calm = {
+    picture: new Pause(CALM, () => this.render("draft")),
+    cursor: new Pause(CALM, () => this.askMasks()),
   };
   private pointer: { at: Point; optics: Optics; hit: string } | null = null;
   private asked = 0;
@@ -110,15 +109,15 @@ export class Preview implements Events {
     }
     const first = this.shown().every(({ answer }) => answer === null);
     this.scene_ = scene;
-    const waiting = this.calm.picture !== undefined;
-    this.stopCalming("picture");
+    const waits = this.rested.isWaiting || this.calm.picture.isWaiting;
+    this.calm.picture.stop();
     // A text with errors has no picture of its own; the last good one is asked for only if it is not there.
     if (scene.render && first) {
       this.render("full");
     } else if (scene.render && !scene.errors) {
-      this.whenCalm("picture", () => this.render("draft"));
-    } else if (this.rest !== undefined || waiting) {
-      this.whenRested();
+      this.calm.picture.start();
+    } else if (waits) {
+      this.rested.start();
     }
     this.refresh();
   }
@@ -145,11 +144,7 @@ export class Preview implements Events {
   }
 
   cursor(): void {
-    this.whenCalm("cursor", () => {
-      for (const { optics } of this.shown()) {
-        void this.askMask(optics);
-      }
-    });
+    this.calm.cursor.start();
   }
 
   visible(visible: boolean): void {
@@ -190,12 +185,12 @@ export class Preview implements Events {
   }
 
   private point(at: Point | null): void {
-    clearTimeout(this.dwell);
+    this.dwelt.stop();
     const found = at === null ? null : this.pixel(at);
     this.pointer = found === null ? null : { ...found, hit: "" };
     this.asked++;
     if (found !== null) {
-      this.dwell = setTimeout(() => void this.ask(), DWELL);
+      this.dwelt.start();
     }
     this.refresh();
   }
@@ -213,8 +208,7 @@ export class Preview implements Events {
     };
     const side = (at.x + 0.5) / size.width < this.divider ? "mirage" : "straight";
     this.pointer = { at, optics: this.options_.show === "both" ? side : optics, hit: "" };
-    clearTimeout(this.dwell);
-    this.dwell = setTimeout(() => void this.ask(), DWELL);
+    this.dwelt.start();
     this.refresh();
   }
 
@@ -251,6 +245,12 @@ export class Preview implements Events {
     }
   }
 
+  private askMasks(): void {
+    for (const { optics } of this.shown()) {
+      void this.askMask(optics);
+    }
+  }
+
   private async askMask(optics: Optics): Promise<void> {
     const asked = ++this.masksAsked[optics];
     let mask: Mask | null = null;
@@ -273,7 +273,8 @@ export class Preview implements Events {
   }
 
   private render(quality: Quality, exposures = this.shown()): void {
-    this.stopResting();
+    this.calm.picture.stop();
+    this.rested.stop();
     this.missed = !this.isVisible;
     if (this.scene_ === null || !this.isVisible || this.reason !== null) {
       return;
@@ -282,32 +283,8 @@ export class Preview implements Events {
       exposure.request(quality, this.limits(exposure, quality));
     }
     if (quality === "draft") {
-      this.whenRested();
+      this.rested.start();
     }
-  }
-
-  private whenCalm(what: "picture" | "cursor", act: () => void): void {
-    this.stopCalming(what);
-    this.calm[what] = setTimeout(() => {
-      this.calm[what] = undefined;
-      act();
-    }, CALM);
-  }
-
-  private stopCalming(what: "picture" | "cursor"): void {
-    clearTimeout(this.calm[what]);
-    this.calm[what] = undefined;
-  }
-
-  /** Makes a full picture once nothing has changed for a while. */
-  private whenRested(): void {
-    this.stopResting();
-    this.rest = setTimeout(() => this.render("full"), REST);
-  }
-
-  private stopResting(): void {
-    clearTimeout(this.rest);
-    this.rest = undefined;
   }
 
   private limits(exposure: Exposure, quality: Quality): Limits {
@@ -334,7 +311,7 @@ export class Preview implements Events {
     this.viewport.setPane(clientWidth, clientHeight);
     this.stage.resize(clientWidth, clientHeight, devicePixelRatio);
     if (grown && this.options_.resolution === "pane") {
-      this.whenRested();
+      this.rested.start();
     }
     this.refresh(true);
   }

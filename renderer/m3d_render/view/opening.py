@@ -7,10 +7,7 @@ from typing import NamedTuple
 
 from m3d_render import command
 from m3d_render.command import SCENE_ERROR, CommandError
-from m3dc import compile as compile_scene
-from m3dc import report
 from m3dc.ir import SceneIR
-from m3dc.levels import Levels
 from m3dc.source import Source
 
 
@@ -32,15 +29,13 @@ class Fault(NamedTuple):
 
 def open_scene(scene: str) -> Opened | Fault:
     """What is in a scene file, .m3d or .m3ir; standard input if it is called -. Never raises on what is in it."""
+    printed = io.StringIO()
     try:
         if scene.lower().endswith(".m3ir"):
             return Opened(command.load(scene), None)
-        data = command.read(scene)
+        result = command.compiled(scene, printed)
     except CommandError as failure:
         return Fault(str(failure), f"m3d-view: error: {failure}\n", failure.status)
-    result = compile_scene(data, scene)
-    printed = io.StringIO()
-    report.print_human(Levels().apply(result.diagnostics), result.source, printed)
     if result.ok:
         return Opened(result.ir, result.source, printed.getvalue())
     first = next(diagnostic for diagnostic in result.diagnostics if diagnostic.severity == "error")

@@ -72,16 +72,10 @@ pub struct Hit {
 }
 
 impl Hit {
-    /// Keeps the nearer of two hits. Of two at the same distance the one with the lower name stays, so that the
-    /// order in which shapes are tested never shows.
+    /// Of two hits at the same distance the one with the lower name is nearer, so that the order in which shapes are
+    /// tested never shows.
     #[inline]
-    pub fn keep_nearer(nearest: &mut Option<Hit>, t: f64, shape: ShapeId) {
-        let nearer = match nearest {
-            None => true,
-            Some(known) => t < known.t || (t == known.t && shape < known.shape),
-        };
-        if nearer {
-            *nearest = Some(Hit { t, shape });
-        }
+    pub fn is_nearer(&self, than: &Hit) -> bool {
+        self.t < than.t || (self.t == than.t && self.shape < than.shape)
     }
 }

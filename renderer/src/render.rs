@@ -10,6 +10,7 @@ use crate::camera::Size;
 use crate::film::Film;
 use crate::layer::Layer;
 use crate::optics::atmosphere::Atmosphere;
+use crate::optics::crossing::Crossing;
 use crate::optics::path::Path;
 use crate::optics::tip::Tip;
 use crate::random::Place;
@@ -260,37 +261,25 @@ impl<'a> Tracer<'a> {
             f64::INFINITY,
             stack,
         );
-        let limit = solid.map_or(f64::INFINITY, |hit| hit.t);
+        let limit = solid.map_or(f64::INFINITY, |(hit, _)| hit.t);
         let light =
             nearest_on_curve(&scene.shapes, &scene.light_tree, &plane, path, &departure, limit, stack);
         let measures_length = self.measures_length;
-        let length = |path: &Path, until: f64| {
-            if !measures_length {
-                return 0.0;
-            }
-            let arcs = path.arcs().iter().take_while(|arc| arc.r0 <= until);
-            arcs.map(|arc| arc.length_to(arc.r1.min(until))).sum()
-        };
-        if let Some(Hit { t: r, shape }) = light.or(solid) {
-            // From the last arc back: few are made beyond a hit.
-            let arc = path.find(r, usize::MAX).and_then(|i| path.arc(i).map(|&arc| (i, arc)));
-            self.tally.arcs += path.arcs().len() as u64;
-            if let Some((i, arc)) = arc {
-                let tangent = DVec3::new(radial.x, radial.y, arc.slope_at(r));
-                let arrival = Arrival::Shape {
-                    shape,
-                    point: plane.point(r, arc.height(r)),
-                    direction: tangent.normalize(),
-                    travelled: if measures_length { length(path, r) } else { r },
-                };
-                return Sight { arrival, arcs: i + 1 };
-            }
+        if let Some((Hit { t: r, shape }, Crossing { arc, number, .. })) = light.or(solid) {
+            let arcs = number + 1;
+            self.tally.arcs += arcs as u64;
+            let tangent = DVec3::new(radial.x, radial.y, arc.slope_at(r));
+            let arrival = Arrival::Shape {
+                shape,
+                point: plane.point(r, arc.height(r)),
+                direction: tangent.normalize(),
+                travelled: if measures_length { path.length_to(r) } else { r },
+            };
+            return Sight { arrival, arcs };
         }
-        path.finish();
-        let arcs = path.arcs().len();
+        let Tip { r, z, slope, arcs, .. } = path.end_tip();
         self.tally.arcs += arcs as u64;
-        let Tip { r, z, slope, .. } = path.tip();
-        let travelled = length(path, f64::INFINITY);
+        let travelled = if measures_length { path.length_to(r) } else { 0.0 };
         let tangent = DVec3::new(radial.x, radial.y, slope);
         let mut ray = Ray::new(plane.point(r, z), tangent.normalize());
         if r > departure.from {

@@ -4,14 +4,14 @@ use glam::{DVec2, DVec3};
 use wide::{CmpLe, f32x4};
 
 use crate::bvh::{Boxes, Bvh, Item, Probe, Slab, Visit, at_least};
-use crate::optics::crossing::{Range, meet_circle, meet_line, meet_segment};
+use crate::optics::crossing::{Crossing, Range, meet_circle, meet_line, meet_segment};
 use crate::optics::path::Path;
 use crate::ray::{Hit, Ray, ShapeId, ShapeKind};
 use crate::scene::Shapes;
 use crate::shape::{RadialPlane, cut, triangle};
 
 /// Distance at which a straight ray meets a shape.
-#[inline]
+#[inline(always)] // It is called for every facet of every leaf.
 fn meet(shapes: &Shapes, ray: &Ray, shape: ShapeId, corners: [u32; 3]) -> Option<f64> {
     let own = ray.leaves == Some(shape);
     if shape.kind() != ShapeKind::Facet {
@@ -113,12 +113,15 @@ impl Search for Nearest<'_> {
         self.limit
     }
 
-    #[inline]
+    #[inline(always)]
     fn test(&mut self, shape: ShapeId, corners: [u32; 3]) -> bool {
         if let Some(t) = meet(self.shapes, &self.ray, shape, corners)
             && t <= self.ray.to
         {
-            Hit::keep_nearer(&mut self.found, t, shape);
+            let hit = Hit { t, shape };
+            if self.found.is_none_or(|known| hit.is_nearer(&known)) {
+                self.found = Some(hit);
+            }
             self.ray.to = t;
             self.limit = at_least(t);
         }
@@ -157,7 +160,7 @@ impl Search for Blocker<'_> {
         self.limit
     }
 
-    #[inline]
+    #[inline(always)]
     fn test(&mut self, shape: ShapeId, corners: [u32; 3]) -> bool {
         self.found = meet(self.shapes, &self.ray, shape, corners).is_some_and(|t| t < self.ray.to);
         self.found
@@ -195,12 +198,12 @@ struct Curved<'a, 'b, 'c> {
     limit: f32,
     /// Number of the arc last looked at, near which the next one is.
     arc: usize,
-    found: Option<Hit>,
+    found: Option<(Hit, Crossing)>,
 }
 
 impl Curved<'_, '_, '_> {
     /// The first shape of a tree.
-    fn first_of(mut self, tree: &Bvh, stack: &mut Vec<Visit>) -> Option<Hit> {
+    fn first_of(mut self, tree: &Bvh, stack: &mut Vec<Visit>) -> Option<(Hit, Crossing)> {
         match self.slabs.map(|slab| slab.near_side) {
             [0, 0] => tree.walk(&mut Walking::<0>(&mut self), stack),
             [1, 0] => tree.walk(&mut Walking::<1>(&mut self), stack),
@@ -240,10 +243,13 @@ impl Curved<'_, '_, '_> {
             }
         };
         self.arc = range.hint;
-        if let Some(r) = met {
-            Hit::keep_nearer(&mut self.found, r, shape);
-            self.to = r;
-            self.limit = at_least(r);
+        if let Some(crossing) = met {
+            let hit = Hit { t: crossing.r, shape };
+            if self.found.is_none_or(|(known, _)| hit.is_nearer(&known)) {
+                self.found = Some((hit, crossing));
+            }
+            self.to = crossing.r;
+            self.limit = at_least(crossing.r);
         }
     }
 }
@@ -290,7 +296,7 @@ pub fn nearest_on_curve(
     departure: &Departure,
     limit: f64,
     stack: &mut Vec<Visit>,
-) -> Option<Hit> {
+) -> Option<(Hit, Crossing)> {
     if tree.is_empty() {
         return None;
     }
@@ -405,16 +411,16 @@ mod tests {
             shapes in shapes(), eye in point(250.0), toward in 0.0..std::f64::consts::TAU,
             slope in -0.03..0.03f64, bends in prop::collection::vec(-3e-4..3e-4f64, 8),
         ) {
-            let layers: Vec<Layer> = bends.iter().enumerate()
-                .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
-                .collect();
+            let layers =
+                Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
             let air = Atmosphere { layers, profile_top: 8.0, segments: 300, distance: 400.0 };
             let mut path = Path::new(&air);
             path.start(eye.z, slope);
             let plane = RadialPlane { origin: eye, radial: DVec2::from_angle(toward) };
             let (tree, _) = shapes.trees();
             let found = nearest_on_curve(&shapes, &tree, &plane, &mut path, &Departure::default(), f64::INFINITY, &mut Vec::new());
-            path.finish();
+            let found = found.map(|(hit, _)| hit);
+            path.keep_all();
             // Chords of at most 0.2 m lie within 3e-6 m of the curve.
             let all = each(&shapes);
             let mut expected = None;
@@ -442,7 +448,7 @@ mod tests {
                         let mut moved = plane;
                         moved.origin.z += nudge;
                         nearest_on_curve(&shapes, &tree, &moved, &mut path, &Departure::default(), f64::INFINITY, &mut Vec::new())
-                            .map(|hit| hit.t)
+                            .map(|(hit, _)| hit.t)
                     };
                     let around = [near(1e-4), near(-1e-4)];
                     let steady = around.iter().all(|t| match (t, hit) {

@@ -17,7 +17,9 @@ pub const EARTH_RADIUS: f64 = 6_371_000.0;
 /// 0 °C in K.
 const CELSIUS: f64 = 273.15;
 
-/// One layer. Inside it a ray is the parabola z = `half_bend` r² + r tan φ + z₀ (thesis eq. 2.4).
+/// One layer. Inside it a ray is the parabola z = `half_bend` r² + r tan φ + z₀ (thesis eq. 2.4), so that slope² grows
+/// by 4 A_p for each metre of height. The gains are what it has grown by since the lowest layer's bottom: slope² less
+/// the gain is the same all along a ray, through all layers.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Layer {
     pub bottom: f64,
@@ -25,14 +27,24 @@ pub struct Layer {
     /// A_p = -κ_eff / 2 (thesis eq. 4.1), 1/m.
     pub half_bend: f64,
     pub height: f64,
-    /// What slope² grows by from the bottom to the top: the equation's slope² - 4 A_p z is the same all along a ray.
-    pub gain: f64,
+    pub gain_at_bottom: f64,
+    pub gain_at_top: f64,
 }
 
 impl Layer {
-    pub fn new(bottom: f64, top: f64, half_bend: f64) -> Self {
-        let height = top - bottom;
-        Self { bottom, top, half_bend, height, gain: 4.0 * half_bend * height }
+    /// One upon another, each given by bottom, top and `half_bend`.
+    pub fn stack(layers: impl IntoIterator<Item = (f64, f64, f64)>) -> Vec<Self> {
+        let mut gain = 0.0;
+        let layer = |(bottom, top, half_bend): (f64, f64, f64)| {
+            let (height, gain_at_bottom) = (top - bottom, gain);
+            gain += 4.0 * half_bend * height;
+            Self { bottom, top, half_bend, height, gain_at_bottom, gain_at_top: gain }
+        };
+        layers.into_iter().map(layer).collect()
+    }
+
+    pub fn gain_at(&self, z: f64) -> f64 {
+        self.gain_at_bottom + 4.0 * self.half_bend * (z - self.bottom)
     }
 }
 
@@ -148,10 +160,15 @@ impl Atmosphere {
                 if !bend.is_finite() {
                     return Err(format!("the atmosphere at elevation {middle} has no finite curvature"));
                 }
-                layers.push(Layer::new(bottom, top.min(ceiling), -0.5 * bend));
+                layers.push((bottom, top.min(ceiling), -0.5 * bend));
             }
         }
-        Ok(Self { layers, profile_top, segments: limits.segments, distance: limits.distance })
+        Ok(Self {
+            layers: Layer::stack(layers),
+            profile_top,
+            segments: limits.segments,
+            distance: limits.distance,
+        })
     }
 
     /// Lowest elevation of the layers.

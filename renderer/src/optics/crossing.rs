@@ -7,6 +7,7 @@
 
 use super::arc::Arc;
 use super::path::Path;
+use super::tip::Heights;
 use crate::shape::Segment;
 use crate::shape::plane::Line;
 use crate::shape::sphere::Circle;
@@ -106,6 +107,15 @@ impl Range {
     }
 }
 
+/// Where a curve meets a shape: at a distance, on one of its arcs.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    pub r: f64,
+    pub arc: Arc,
+    /// Of the curve's arcs, from 0.
+    pub number: usize,
+}
+
 #[cfg(test)]
 impl Range {
     fn whole(hint: usize) -> Self {
@@ -113,52 +123,49 @@ impl Range {
     }
 }
 
-/// Distance at which the curve first meets a line.
-pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<f64> {
+/// Where the curve first meets a line.
+pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<Crossing> {
     let side = |r: f64, z: f64| line.a * r + line.c * z + line.d;
-    let eye = path.arc(0)?;
-    // The value at the end of one arc, which is that at the start of the next.
-    let mut start = side(eye.r0, eye.z0);
+    let level = line.a == 0.0;
     // A curve that starts on the line leaves it, and may come back.
-    let mut leaves = range.leaves || start.abs() <= range.from;
-    let mut i = 0;
-    loop {
-        for arc in &path.arcs()[i..] {
-            if arc.r0 > range.to {
-                return None;
-            }
-            let end = side(arc.r1, arc.z1);
-            // A level line is not crossed by an arc that does not turn and has both ends on one side.
-            if line.a == 0.0 && start * end > 0.0 && arc.apex == arc.z1 && !leaves {
-                start = end;
-                continue;
-            }
-            let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
-            let width = arc.r1 - arc.r0;
-            let root = if leaves {
-                let again = -q.b / q.a;
-                (0.0 < again && again <= width).then_some(again)
-            } else if q.keeps_its_sign(0.0, width, start, end) {
-                None
-            } else {
-                q.first_root(0.0, width, start, end)
-            };
-            if let Some(x) = root {
-                let r = arc.r0 + x;
-                return (r <= range.to).then_some(r);
-            }
-            (start, leaves) = (end, false);
+    let leaves = range.leaves || side(0.0, path.eye_height()).abs() <= range.from;
+    let heights = if level && !leaves { Heights::around(-line.d / line.c) } else { Heights::ALL };
+    let mut met = None;
+    path.walk(heights, |number, arc| {
+        if arc.r0 > range.to {
+            return false;
         }
-        i = path.arcs().len();
-        if !path.more() {
-            return None;
+        let leaves = leaves && number == 0;
+        // Of one arc's end and the next one's start the same value comes.
+        let ends = [side(arc.r0, arc.z0), side(arc.r1, arc.z1)];
+        // A level line is not crossed by an arc that does not turn and has both ends on one side.
+        let passes_by = level && ends[0] * ends[1] > 0.0 && arc.apex == arc.z1 && !leaves;
+        if !passes_by && let Some(r) = arc_meets_line(arc, line, ends, leaves) {
+            met = (r <= range.to).then_some(Crossing { r, arc: *arc, number });
+            return false;
         }
-    }
+        true
+    });
+    met
 }
 
-/// Distance at which the curve first meets a segment. The range's hint becomes the arc above the segment's start.
+/// The values are those of the line at the arc's two ends.
+#[inline(never)]
+fn arc_meets_line(arc: &Arc, line: &Line, [start, end]: [f64; 2], leaves: bool) -> Option<f64> {
+    let q = Quadratic { a: line.c * arc.half_bend, b: line.c * arc.slope + line.a, c: start };
+    let width = arc.r1 - arc.r0;
+    let root = if leaves {
+        let again = -q.b / q.a;
+        (0.0 < again && again <= width).then_some(again)
+    } else {
+        q.first_root(0.0, width, start, end)
+    };
+    root.map(|x| arc.r0 + x)
+}
+
+/// Where the curve first meets a segment. The range's hint becomes the arc above the segment's start.
 #[inline]
-pub fn meet_segment(path: &mut Path, segment: &Segment, range: &mut Range) -> Option<f64> {
+pub fn meet_segment(path: &mut Path, segment: &Segment, range: &mut Range) -> Option<Crossing> {
     let (start, step) = (segment.start, segment.end - segment.start);
     if segment.end.x < 0.0 || start.x > range.to {
         return None;
@@ -177,7 +184,7 @@ pub fn meet_segment(path: &mut Path, segment: &Segment, range: &mut Range) -> Op
             range.from
         };
         if let Some(r) = arc_meets_segment(arc, segment, start, step, uncertainty) {
-            return range.holds(r).then_some(r);
+            return range.holds(r).then_some(Crossing { r, arc: *arc, number: i });
         }
         i += 1;
     }
@@ -226,8 +233,8 @@ fn arc_meets_segment(
     Some((start.x + s * step.x).clamp(arc.r0, arc.r1))
 }
 
-/// Distance at which the curve first enters a circle, or leaves the one it starts in.
-pub fn meet_circle(path: &mut Path, circle: &Circle, range: &Range) -> Option<f64> {
+/// Where the curve first enters a circle, or leaves the one it starts in.
+pub fn meet_circle(path: &mut Path, circle: &Circle, range: &Range) -> Option<Crossing> {
     let (center, radius) = (circle.center, circle.radius);
     let (near, far) = (center.x - radius, center.x + radius);
     if far < 0.0 || near > range.to {
@@ -263,7 +270,7 @@ pub fn meet_circle(path: &mut Path, circle: &Circle, range: &Range) -> Option<f6
             };
             if let Some(x) = found {
                 let r = arc.r0 + x;
-                return range.holds(r).then_some(r);
+                return range.holds(r).then_some(Crossing { r, arc, number: i });
             }
         }
         i += 1;
@@ -403,11 +410,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn air(bends: &[f64]) -> Atmosphere {
-        let layers: Vec<Layer> = bends
-            .iter()
-            .enumerate()
-            .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
-            .collect();
+        let layers =
+            Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
         let profile_top = layers.len() as f64;
         Atmosphere { layers, profile_top, segments: 500, distance: 2_000.0 }
     }
@@ -448,13 +452,14 @@ mod tests {
 
         #[test]
         fn lines_are_met_where_sampling_finds_them(
-            bends in bends(), slope in -0.02..0.02f64, a in -0.01..0.01f64, height in -1.0..6.0f64,
+            bends in bends(), slope in -0.02..0.02f64,
+            a in prop_oneof![Just(0.0), -0.01..0.01f64], height in -1.0..6.0f64,
         ) {
             let air = air(&bends);
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let line = Line { a, c: 1.0, d: -height };
-            let exact = meet_line(&mut path, &line, &Range::whole(0));
+            let exact = meet_line(&mut path, &line, &Range::whole(0)).map(|met| met.r);
             let expected = sampled(&mut path, |r, z| line.a * r + z + line.d);
             if let (Some(r), None) = (exact, expected) {
                 // A graze that sampling steps over must at least be a meeting.
@@ -474,7 +479,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let segment = Segment { start: DVec2::new(r, z), end: DVec2::new(r + dr, z + dz) };
-            let exact = meet_segment(&mut path, &segment, &mut Range::whole(hint));
+            let exact = meet_segment(&mut path, &segment, &mut Range::whole(hint)).map(|met| met.r);
             if let Some(t) = exact {
                 let arc = *path.arcs().iter().find(|arc| arc.r0 <= t && t <= arc.r1).unwrap();
                 prop_assert!(r - 1e-9 <= t && t <= r + dr + 1e-9);
@@ -483,7 +488,7 @@ mod tests {
                 }
             }
             // By sampling the segment and comparing the sides of its points.
-            path.finish();
+            path.keep_all();
             let sides: Vec<f64> = (0..=4000).filter_map(|i| {
                 let s = f64::from(i) / 4000.0;
                 let at = r + s * dr;
@@ -506,7 +511,7 @@ mod tests {
             let mut path = Path::new(&air);
             path.start(0.4 * bends.len() as f64, slope);
             let circle = Circle { center: DVec2::new(r, z), radius };
-            let exact = meet_circle(&mut path, &circle, &Range::whole(hint));
+            let exact = meet_circle(&mut path, &circle, &Range::whole(hint)).map(|met| met.r);
             let expected = sampled(&mut path, |x, y| (x - r).hypot(y - z) - radius);
             if let (Some(t), None) = (exact, expected) {
                 let arc = path.arcs().iter().find(|arc| arc.r0 <= t && t <= arc.r1).unwrap();
@@ -542,8 +547,8 @@ mod tests {
         let ground = Line { a: 0.0, c: 1.0, d: 0.0 };
         for i in 1..1000 {
             path.start(2.1, -f64::from(i) * 1e-4 - 6e-3);
-            let r = meet_line(&mut path, &ground, &Range::whole(0));
-            assert_eq!(r.is_some(), path.tip().z == 0.0, "slope {i}");
+            let met = meet_line(&mut path, &ground, &Range::whole(0));
+            assert_eq!(met.is_some(), path.end_tip().z == 0.0, "slope {i}");
         }
     }
 }

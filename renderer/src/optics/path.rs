@@ -7,7 +7,7 @@ use wide::f32x4;
 use super::arc::Arc;
 use super::atmosphere::Atmosphere;
 use super::sketch::{ArcSketch, Band, Bends};
-use super::tip::{End, Tip};
+use super::tip::{Heights, Tip};
 
 /// A curve in the making. One value serves many rays: `start` begins anew and keeps the memory.
 #[derive(Clone, Debug)]
@@ -15,8 +15,14 @@ pub struct Path<'a> {
     air: &'a Atmosphere,
     bends: Bends,
     band: Band,
-    tip: Tip,
+    eye_height: f64,
+    /// The layer that holds the eye, or lies on it: the next curve mostly begins where the last one did.
+    above_eye: usize,
+    /// Arcs kept so far, and where they end.
     arcs: Vec<Arc>,
+    tip: Tip,
+    /// Where the whole curve ends, once someone has followed it so far.
+    end_tip: Option<Tip>,
     /// Arcs as boxes see them, from number `first_sketched` on, as far as boxes have asked.
     sketches: Vec<ArcSketch>,
     first_sketched: usize,
@@ -30,8 +36,11 @@ impl<'a> Path<'a> {
             air,
             bends,
             band: Band::new(&bends, 0.0, 0.0),
-            tip: Tip::new(air, f64::NEG_INFINITY, 0.0),
+            eye_height: f64::NEG_INFINITY,
+            above_eye: 0,
             arcs: Vec::new(),
+            tip: Tip::new(air, 0, f64::NEG_INFINITY, 0.0),
+            end_tip: None,
             sketches: Vec::new(),
             first_sketched: 0,
         }
@@ -42,7 +51,12 @@ impl<'a> Path<'a> {
         self.arcs.clear();
         self.sketches.clear();
         self.band = Band::new(&self.bends, z, slope);
-        self.tip = Tip::new(self.air, z, slope);
+        if z != self.eye_height {
+            self.eye_height = z;
+            self.above_eye = self.air.layers.partition_point(|layer| layer.top <= z);
+        }
+        self.tip = Tip::new(self.air, self.above_eye, z, slope);
+        self.end_tip = None;
     }
 
     /// Begins a curve at a height that is known only so well: within that of the lowest or highest boundary it
@@ -53,19 +67,14 @@ impl<'a> Path<'a> {
         self.start(snapped.unwrap_or(z), slope);
     }
 
-    /// Arcs made so far.
+    /// Height at which it begins.
+    pub fn eye_height(&self) -> f64 {
+        self.eye_height
+    }
+
+    /// Arcs kept so far.
     pub fn arcs(&self) -> &[Arc] {
         &self.arcs
-    }
-
-    /// Why the curve ended, once it has.
-    pub fn end(&self) -> Option<End> {
-        self.tip.end
-    }
-
-    /// Where the last arc made so far ends.
-    pub fn tip(&self) -> Tip {
-        self.tip
     }
 
     /// Beyond this the curve does not go.
@@ -73,40 +82,66 @@ impl<'a> Path<'a> {
         self.band.reach
     }
 
-    /// Makes at most `most` arcs, until one ends at r or beyond, or the curve has ended.
-    fn extend(&mut self, most: usize, r: f64) {
-        let room = self.air.segments.saturating_sub(self.arcs.len());
-        if room == 0 && self.tip.end.is_none() {
-            self.tip.end = Some(End::Segments);
+    /// Keeps all arcs.
+    pub fn keep_all(&mut self) -> &[Arc] {
+        self.keep_while(|_| true);
+        &self.arcs
+    }
+
+    /// Where the curve ends, which has a reason. None of its arcs is kept for that.
+    pub fn end_tip(&mut self) -> Tip {
+        if self.end_tip.is_none() {
+            self.walk_on(Heights::NONE, |_, _| true);
         }
+        self.end_tip.unwrap_or(self.tip)
+    }
+
+    /// Length of the curve from the eye to the distance r.
+    pub fn length_to(&mut self, r: f64) -> f64 {
+        let mut length = 0.0;
+        self.walk(Heights::ALL, |_, arc| {
+            if arc.r0 <= r {
+                length += arc.length_to(arc.r1.min(r));
+            }
+            arc.r0 <= r
+        });
+        length
+    }
+
+    /// Shows the arcs, with their numbers, from the first for as long as `visit` wants more, but not all of those that
+    /// miss the heights. Those that are not kept yet will not be.
+    #[inline]
+    pub fn walk(&mut self, heights: Heights, mut visit: impl FnMut(usize, &Arc) -> bool) {
+        if self.arcs.iter().enumerate().all(|(number, arc)| visit(number, arc)) {
+            self.walk_on(heights, visit);
+        }
+    }
+
+    /// Shows those that are not kept.
+    #[inline(always)]
+    fn walk_on(&mut self, heights: Heights, mut visit: impl FnMut(usize, &Arc) -> bool) {
+        let mut tip = self.tip;
+        tip.follow(self.air, heights, |number, arc| visit(number, &arc));
+        if tip.end.is_some() {
+            self.end_tip = Some(tip);
+        }
+    }
+
+    /// Keeps one arc more, and those after it for as long as the last one is such.
+    fn keep_while(&mut self, such: impl Fn(&Arc) -> bool) {
         let (mut tip, arcs) = (self.tip, &mut self.arcs);
-        tip.follow(self.air, most.min(room), |arc| {
+        tip.follow(self.air, Heights::ALL, |_, arc| {
             arcs.push(arc);
-            arc.r1 < r
+            such(&arc)
         });
         self.tip = tip;
-    }
-
-    /// Makes a few more arcs, at most as many as there are or sixteen, for someone who looks at every one. False if there
-    /// are no more.
-    pub fn more(&mut self) -> bool {
-        let made = self.arcs.len();
-        self.extend(made.max(16), f64::INFINITY);
-        self.arcs.len() > made
-    }
-
-    /// Makes all arcs.
-    pub fn finish(&mut self) {
-        while self.tip.end.is_none() {
-            self.extend(usize::MAX, f64::INFINITY);
-        }
     }
 
     /// The i-th arc, made if need be; None beyond the end.
     #[inline]
     pub fn arc(&mut self, i: usize) -> Option<&Arc> {
         while self.arcs.len() <= i && self.tip.end.is_none() {
-            self.extend(1, f64::INFINITY);
+            self.keep_while(|_| false);
         }
         self.arcs.get(i)
     }
@@ -120,7 +155,7 @@ impl<'a> Path<'a> {
         }
         if self.arcs.last().is_none_or(|last| last.r1 < r) {
             i = self.arcs.len();
-            self.extend(usize::MAX, r);
+            self.keep_while(|arc| arc.r1 < r);
         }
         while self.arcs.get(i)?.r1 < r {
             i += 1;
@@ -193,15 +228,13 @@ impl<'a> Path<'a> {
 mod tests {
     use super::*;
     use crate::optics::atmosphere::Layer;
+    use crate::optics::tip::End;
     use proptest::prelude::*;
     use wide::CmpLe;
 
     fn air(bends: &[f64]) -> Atmosphere {
-        let layers: Vec<Layer> = bends
-            .iter()
-            .enumerate()
-            .map(|(i, &half_bend)| Layer::new(i as f64, i as f64 + 1.0, half_bend))
-            .collect();
+        let layers =
+            Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
         let profile_top = layers.len() as f64;
         Atmosphere { layers, profile_top, segments: 200, distance: 10_000.0 }
     }
@@ -211,17 +244,18 @@ mod tests {
         let air = air(&[0.0, 0.0, 0.0]);
         let mut path = Path::new(&air);
         path.start(0.5, 0.01);
-        path.finish();
-        assert_eq!(path.end(), Some(End::Top));
-        assert!((path.tip().r - 250.0).abs() < 1e-9);
+        let tip = path.end_tip();
+        assert_eq!((tip.end, tip.arcs), (Some(End::Top), 3));
+        assert!((tip.r - 250.0).abs() < 1e-9);
         path.start(0.5, 0.0);
-        path.finish();
-        assert_eq!((path.end(), path.tip().r), (Some(End::Range), 10_000.0));
+        let tip = path.end_tip();
+        assert_eq!((tip.end, tip.r), (Some(End::Range), 10_000.0));
         path.start(0.0, -1.0);
-        path.finish();
-        assert_eq!((path.end(), path.arcs().len()), (Some(End::Ground), 0));
+        let tip = path.end_tip();
+        assert_eq!((tip.end, tip.arcs), (Some(End::Ground), 0));
         path.start(3.0, 1.0);
-        assert_eq!((path.end(), path.arcs().len()), (Some(End::Top), 0));
+        let tip = path.end_tip();
+        assert_eq!((tip.end, tip.arcs), (Some(End::Top), 0));
     }
 
     #[test]
@@ -229,12 +263,14 @@ mod tests {
         let air = air(&[1e-3, -1e-3]);
         let mut path = Path::new(&air);
         path.start(1.0, 1e-3);
-        path.finish();
-        assert_eq!((path.end(), path.arcs().len()), (Some(End::Segments), 200));
+        let tip = path.end_tip();
+        assert_eq!((tip.end, tip.arcs, path.arcs().len()), (Some(End::Segments), 200, 0));
+        assert_eq!(path.keep_all().len(), 200);
     }
 
     proptest! {
-        /// Arcs join, keep to their layers, have no kink, and follow from their own equation.
+        /// Arcs join, keep to their layers, have no kink, and follow from their own equation. They are the same
+        /// whether they are kept, shown or counted.
         #[test]
         fn arcs_join_smoothly(
             bends in prop::collection::vec(-1e-3..1e-3f64, 1..6),
@@ -244,13 +280,31 @@ mod tests {
             let air = air(&bends);
             let mut path = Path::new(&air);
             path.start(z * bends.len() as f64, slope);
-            path.finish();
-            prop_assert!(path.end().is_some());
-            for pair in path.arcs().windows(2) {
+            let tip = path.end_tip();
+            prop_assert!(tip.end.is_some());
+            let arcs = path.keep_all().to_vec();
+            prop_assert_eq!(tip.arcs, arcs.len());
+            if let Some(last) = arcs.last() {
+                prop_assert_eq!((tip.r, tip.z), (last.r1, last.z1));
+            }
+            for kept in [0, 1, arcs.len() / 2, arcs.len()] {
+                path.start(z * bends.len() as f64, slope);
+                if kept > 0 {
+                    path.arc(kept - 1);
+                }
+                let mut seen = Vec::new();
+                path.walk(Heights::ALL, |i, arc| {
+                    seen.push(*arc);
+                    seen.len() == i + 1
+                });
+                prop_assert_eq!(&seen, &arcs);
+                prop_assert_eq!(path.arcs().len(), kept.min(arcs.len()));
+            }
+            for pair in arcs.windows(2) {
                 prop_assert_eq!((pair[0].r1, pair[0].z1), (pair[1].r0, pair[1].z0));
                 prop_assert!((pair[0].slope_at(pair[0].r1) - pair[1].slope).abs() < 1e-7);
             }
-            for arc in path.arcs() {
+            for arc in &arcs {
                 prop_assert!(arc.r1 >= arc.r0 && arc.low() <= arc.high());
                 let x = arc.r1 - arc.r0;
                 let z1 = (arc.half_bend * x + arc.slope) * x + arc.z0;
@@ -286,7 +340,8 @@ mod tests {
             let lanes_passed_by_arcs = path.arcs_pass(asked, distances, heights, &mut hint);
             prop_assert_eq!(lanes_passed.to_bitmask() & 8, 0);
             let passed = [lanes_passed, lanes_passed_by_arcs].map(|lanes| lanes.to_bitmask() & 1 != 0);
-            path.finish();
+            let ends_before = path.end_tip().r < from + width;
+            path.keep_all();
             let inside = |margin: f64| (0..=4000).any(|i| {
                 let r = from + width * f64::from(i) / 4000.0;
                 path.arcs().iter().filter(|arc| arc.r0 <= r && r <= arc.r1).any(|arc| {
@@ -294,7 +349,6 @@ mod tests {
                     low - margin <= z && z <= low + height + margin
                 })
             });
-            let ends_before = path.tip().r < from + width;
             let right = match passed {
                 [true, _] if ends_before => true,
                 [passed, _] => inside(if passed { height + 0.01 } else { -1e-6 }) == passed,

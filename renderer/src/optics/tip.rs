@@ -3,7 +3,7 @@
 //! An arc ends exactly where the next one starts: a layer boundary's height is that boundary's, not a parabola's
 //! rounded value, so that a surface lying on a boundary is met by the arc that ends there.
 
-use wide::f64x2;
+use wide::{CmpGt, f64x2};
 
 use super::arc::Arc;
 use super::atmosphere::{Atmosphere, Layer};
@@ -27,108 +27,161 @@ pub struct Tip {
     pub r: f64,
     pub z: f64,
     pub slope: f64,
-    /// slope², which is linear in the height within a layer: it runs ahead of the square roots.
-    slope_squared: f64,
+    /// slope² less the gain of the height, the same all along the curve: what tells how steep it is at each boundary,
+    /// and where it turns, without following it there.
+    invariant: f64,
     /// Layer that the next arc runs in.
     layer: usize,
+    /// Arcs so far.
+    pub arcs: usize,
     pub end: Option<End>,
 }
 
+/// The heights at which someone wants to see a curve, both included.
+#[derive(Clone, Copy, Debug)]
+pub struct Heights {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Heights {
+    pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    pub const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+
+    /// A height that may be wrong by a few roundings.
+    pub fn around(z: f64) -> Self {
+        let slack = 1e-14 * z.abs();
+        Self { low: z - slack, high: z + slack }
+    }
+
+    /// Whether nothing of a curve that only rises, or only falls, from one height to another lies within.
+    #[inline]
+    fn miss(&self, from: f64, to: f64) -> bool {
+        (from > self.high && to > self.high) || (from < self.low && to < self.low)
+    }
+}
+
 impl Tip {
-    /// A curve's beginning at height z with the tangent's slope dz/dr.
-    pub fn new(air: &Atmosphere, z: f64, slope: f64) -> Self {
-        let mut tip = Self { r: 0.0, z, slope, slope_squared: slope * slope, layer: 0, end: None };
-        let above = air.layers.partition_point(|layer| layer.top <= z);
-        match air.layers.get(above) {
-            Some(layer) if layer.bottom < z => tip.layer = above,
-            // On the boundary below layer `above`, or outside of all layers.
-            Some(layer) if layer.bottom == z => tip.cross(air, above),
-            Some(_) => tip.end = Some(End::Ground),
-            None if air.layers.last().is_some_and(|layer| layer.top == z) => tip.cross(air, above),
-            None => tip.end = Some(End::Top),
-        }
+    /// A curve's beginning at height z with the tangent's slope dz/dr. `above` is the layer that holds z, or lies on it.
+    pub fn new(air: &Atmosphere, above: usize, z: f64, slope: f64) -> Self {
+        let mut tip = Self { r: 0.0, z, slope, invariant: 0.0, layer: above, arcs: 0, end: None };
+        let gain = match air.layers.get(above) {
+            Some(layer) if layer.bottom < z => layer.gain_at(z),
+            Some(layer) if layer.bottom == z => {
+                tip.cross(air, above);
+                layer.gain_at_bottom
+            }
+            Some(_) => {
+                tip.end = Some(End::Ground);
+                0.0
+            }
+            None => match air.layers.last() {
+                Some(layer) if layer.top == z => {
+                    tip.cross(air, above);
+                    layer.gain_at_top
+                }
+                _ => {
+                    tip.end = Some(End::Top);
+                    0.0
+                }
+            },
+        };
+        tip.invariant = slope * slope - gain;
         tip
     }
 
-    /// Follows the curve, at most `most` arcs, for as long as `keep` wants more after each.
+    /// Follows the curve to its end, or for as long as `visit` wants more. It is shown each arc with its number from 0,
+    /// but need not be shown those that miss the heights.
     #[inline(always)] // So that the loops keep the tip in registers.
-    pub fn follow(&mut self, air: &Atmosphere, most: usize, mut keep: impl FnMut(Arc) -> bool) {
-        let mut left = most;
-        let mut keep = |arc| {
-            left -= 1;
-            keep(arc) && left > 0
-        };
-        while self.end.is_none() && most > 0 {
+    pub fn follow(&mut self, air: &Atmosphere, heights: Heights, mut visit: impl FnMut(usize, Arc) -> bool) {
+        while self.end.is_none() {
+            if self.arcs >= air.segments {
+                self.end = Some(End::Segments);
+                return;
+            }
             let more = if self.slope > 0.0 {
-                self.pass_layers::<true>(air, &mut keep)
+                self.pass_layers::<true>(air, heights, &mut visit)
             } else {
-                self.pass_layers::<false>(air, &mut keep)
+                self.pass_layers::<false>(air, heights, &mut visit)
             };
             if !more {
                 return;
             }
-            let arc = self.step(air);
-            if !keep(arc) {
-                return;
+            if self.end.is_none() && self.arcs < air.segments {
+                let arc = self.step(air);
+                self.arcs += 1;
+                if !visit(self.arcs - 1, arc) {
+                    return;
+                }
             }
         }
-    }
-
-    /// Follows the curve to where it ends, and gives the number of its arcs.
-    pub fn follow_to_end(&mut self, air: &Atmosphere) -> usize {
-        let mut arcs = 0;
-        let mut tip = *self;
-        tip.follow(air, air.segments, |_| {
-            arcs += 1;
-            true
-        });
-        tip.end = tip.end.or(Some(End::Segments));
-        *self = tip;
-        arcs
     }
 
     /// Follows the curve from a boundary through whole layers, which is most of the work, until it is about to turn,
-    /// to be level, to go beyond the distance limit or to leave the layers: the same arcs as `step` makes. Not at all
-    /// where it is inside of a layer. False once `keep` wants no more.
+    /// to be level or to go beyond a limit: the same arcs as `step` makes. Not at all where it is inside of a layer.
+    /// False once `visit` wants no more.
     #[inline(always)]
-    fn pass_layers<const UP: bool>(&mut self, air: &Atmosphere, keep: &mut impl FnMut(Arc) -> bool) -> bool {
-        let begins = air.layers.get(self.layer).map(|layer| if UP { layer.bottom } else { layer.top });
+    fn pass_layers<const UP: bool>(
+        &mut self,
+        air: &Atmosphere,
+        heights: Heights,
+        visit: &mut impl FnMut(usize, Arc) -> bool,
+    ) -> bool {
+        let layers = &air.layers[..];
+        let beyond = |layer: usize| if UP { layer + 1 } else { layer.wrapping_sub(1) };
+        let far_side = |layer: &Layer| if UP { layer.top } else { layer.bottom };
+        let gain = |layer: &Layer| if UP { layer.gain_at_top } else { layer.gain_at_bottom };
+        let signed = |steep: f64| if UP { steep } else { -steep };
+        let begins = layers.get(self.layer).map(|layer| if UP { layer.bottom } else { layer.top });
         if self.slope == 0.0 || begins != Some(self.z) {
             return true;
         }
-        let beyond = |layer: usize| if UP { layer + 1 } else { layer.wrapping_sub(1) };
-        let reach = |slope_squared: f64, layer: &Layer| {
-            if UP { slope_squared + layer.gain } else { slope_squared - layer.gain }
-        };
-        loop {
-            let (first, second) = (self.layer, beyond(self.layer));
-            let (Some(one), Some(two)) = (air.layers.get(first), air.layers.get(second)) else { return true };
-            let reach_one = reach(self.slope_squared, one);
-            let reach_two = reach(reach_one, two);
-            // Two layers at once: square roots and divisions are what takes time.
-            let roots = f64x2::from([reach_one, reach_two]).sqrt();
+        let Self { mut r, mut z, slope, invariant, mut layer, mut arcs, .. } = *self;
+        let mut steep = slope.abs();
+        let wants_more = 'passing: loop {
+            let Some(one) = layers.get(layer) else { break true };
+            // Two layers at once: square roots and divisions are what takes time. Of the last one only the first half
+            // counts.
+            let next = layers.get(beyond(layer));
+            let two = next.unwrap_or(one);
+            let roots = (f64x2::splat(invariant) + f64x2::from([gain(one), gain(two)])).sqrt();
             let [root_one, root_two] = roots.to_array();
-            let doubled = f64x2::from([2.0 * one.height, 2.0 * two.height]);
-            let widths = doubled / (f64x2::from([self.slope.abs(), root_one]) + roots);
+            let height = f64x2::from([one.height, two.height]);
+            let widths = (height + height) / (f64x2::from([steep, root_one]) + roots);
             let [width_one, width_two] = widths.to_array();
-            for (layer, reach, root, width) in
-                [(one, reach_one, root_one, width_one), (two, reach_two, root_two, width_two)]
-            {
-                let r1 = self.r + width;
-                let next = beyond(self.layer);
-                if reach.is_nan() || reach <= 0.0 || !(r1 < air.distance && next < air.layers.len()) {
-                    return true;
+            let (middle, end) = (r + width_one, r + width_one + width_two);
+            // A root that is not a number is not above 0.
+            let both = roots.simd_gt(f64x2::splat(0.0)).all()
+                && end < air.distance
+                && next.is_some()
+                && arcs + 2 <= air.segments;
+            if both && heights.miss(z, far_side(two)) {
+                (r, z, steep) = (end, far_side(two), root_two);
+                (layer, arcs) = (beyond(beyond(layer)), arcs + 2);
+                continue;
+            }
+            for (passed, root, r1) in [(one, root_one, middle), (two, root_two, end)] {
+                if !(root > 0.0 && r1 < air.distance && arcs < air.segments) {
+                    break 'passing true;
                 }
-                let z1 = if UP { layer.top } else { layer.bottom };
-                let half_bend = layer.half_bend;
-                let arc = Arc { r0: self.r, r1, z0: self.z, z1, slope: self.slope, half_bend, apex: z1 };
-                self.slope = if UP { root } else { -root };
-                (self.r, self.z, self.slope_squared, self.layer) = (r1, z1, reach, next);
-                if !keep(arc) {
-                    return false;
+                let z1 = far_side(passed);
+                let half_bend = passed.half_bend;
+                let arc = Arc { r0: r, r1, z0: z, z1, slope: signed(steep), half_bend, apex: z1 };
+                (r, z, steep) = (r1, z1, root);
+                (layer, arcs) = (beyond(layer), arcs + 1);
+                if !visit(arcs - 1, arc) {
+                    break 'passing false;
+                }
+                if next.is_none() {
+                    break;
                 }
             }
+        };
+        if layer >= layers.len() {
+            self.end = Some(if UP { End::Top } else { End::Ground });
         }
+        (self.r, self.z, self.slope, self.layer, self.arcs) = (r, z, signed(steep), layer, arcs);
+        wants_more
     }
 
     /// Chooses the layer beyond the boundary below layer `above`, by the ray's slope, or by the way it bends where
@@ -161,20 +214,18 @@ impl Tip {
         let (a, m, z) = (layer.half_bend, self.slope, self.z);
         // Heights are counted toward `ahead`, the boundary the ray points at; `bend` is positive toward it.
         let rising = m > 0.0 || (m == 0.0 && a > 0.0);
-        let (ahead, behind, bend, steep) = if rising {
-            (layer.top - z, z - layer.bottom, a, m)
+        let (ahead, gain_ahead, gain_behind, bend, steep) = if rising {
+            (layer.top - z, layer.gain_at_top, layer.gain_at_bottom, a, m)
         } else {
-            (z - layer.bottom, layer.top - z, -a, -m)
+            (z - layer.bottom, layer.gain_at_bottom, layer.gain_at_top, -a, -m)
         };
         // bend x² + steep x = ahead; where that has no solution the ray turns and meets the boundary behind.
-        let reach = self.slope_squared + 4.0 * bend * ahead;
-        let (width, slope, turns) = if reach >= 0.0 {
-            let root = reach.sqrt();
-            self.slope_squared = reach;
+        let square_ahead = self.invariant + gain_ahead;
+        let (width, slope, turns) = if square_ahead >= 0.0 {
+            let root = square_ahead.sqrt();
             (2.0 * ahead / (steep + root), root, false)
         } else {
-            self.slope_squared -= 4.0 * bend * behind;
-            let root = self.slope_squared.sqrt();
+            let root = (self.invariant + gain_behind).max(0.0).sqrt();
             ((steep + root) / (-2.0 * bend), -root, true)
         };
         let exits_up = rising != turns;
@@ -190,7 +241,6 @@ impl Tip {
             arc.r1 = r1;
             arc.apex = arc.z1;
             slope = arc.slope_at(r1);
-            self.slope_squared = slope * slope;
         }
         if m * slope < 0.0 {
             arc.apex = (z - 0.25 * m * m / a).clamp(layer.bottom, layer.top);

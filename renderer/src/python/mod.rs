@@ -20,7 +20,7 @@ use crate::film::Film;
 use crate::layer::Layer;
 use crate::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
 use crate::optics::path::Path;
-use crate::optics::tip::{End, Tip};
+use crate::optics::tip::End;
 use crate::ray::Ray;
 use crate::render::{Settings, Tally};
 use crate::scene;
@@ -335,19 +335,11 @@ fn trace_paths<'py>(
     let mut heights = Vec::with_capacity(slopes.len() * distances.len());
     let mut path = Path::new(&air);
     for &slope in slopes {
-        let (tip, count) = if distances.is_empty() {
-            // Arcs that nobody looks at need not be kept.
-            let mut tip = Tip::new(&air, height, slope);
-            let count = tip.follow_to_end(&air);
-            (tip, count)
-        } else {
-            path.start(height, slope);
-            path.finish();
-            (path.tip(), path.arcs().len())
-        };
+        path.start(height, slope);
+        let tip = path.end_tip();
         ends.push(end_number(tip.end));
         tips.extend([tip.r, tip.z, tip.slope]);
-        arcs.push(count as u32);
+        arcs.push(tip.arcs as u32);
         let mut arc = 0;
         for &distance in &distances {
             let found = path.find(distance, arc).filter(|_| distance >= 0.0);
@@ -372,9 +364,8 @@ fn trace_crossings<'py>(
     let air = air_around(ir, height, finer)?;
     let mut path = Path::new(&air);
     path.start(height, slope);
-    path.finish();
     let mut points = vec![0.0, height];
-    points.extend(path.arcs().iter().flat_map(|arc| [arc.r1, arc.z1]));
+    points.extend(path.keep_all().iter().flat_map(|arc| [arc.r1, arc.z1]));
     let rows = points.len() / 2;
     PyArray1::from_vec(py, points).reshape([rows, 2])
 }

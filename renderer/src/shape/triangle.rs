@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::ray::Ray;
 
 /// Distance along the ray to the triangle with these corners, from either side.
-#[inline]
+#[inline(always)] // It is called for every facet of every leaf.
 pub fn intersect(corners: [&DVec3; 3], ray: &Ray) -> Option<f64> {
     let [a, b, c] = corners.map(|&corner| corner - ray.origin);
     let d = ray.direction;

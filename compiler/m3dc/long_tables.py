@@ -6,13 +6,13 @@ byte of it is out of place, and the syntax tree is the same with or without it (
 
 from __future__ import annotations
 
+from tree_sitter_m3d import only_numbers
+
 from .ir import Span
 
 LONG = 1 << 16
-PIECE = 1 << 14
 # What is left of a table at both ends, so that a token is there and words keep their neighbours.
 KEPT = 256
-_ALLOWED = b"0123456789.+-eE<>, \t\r\n\v\f"
 _BLANK = b" \t\r\n"
 
 
@@ -25,19 +25,13 @@ def insides(data: bytes) -> list[Span]:
         if close < 0:
             break
         opened = data.rfind(b"{", brace, close) + 1
-        if close - opened > LONG and _only_numbers(data, opened, close):
+        if close - opened > LONG and only_numbers(data, opened, close):
             start = _next_blank(data, opened + KEPT, opened + LONG // 2)
             end = _last_blank(data, close - KEPT, close - LONG // 2)
             if start is not None and end is not None:
                 found.append((start, end))
         brace = data.find(b"{", close)
     return found
-
-
-def _only_numbers(data: bytes, start: int, end: int) -> bool:
-    """Whether a stretch holds nothing else, looked at in pieces that stay in the processor's cache."""
-    pieces = (data[at : min(at + PIECE, end)] for at in range(start, end, PIECE))
-    return not any(piece.translate(None, _ALLOWED) for piece in pieces)
 
 
 def outside(data: bytes) -> list[Span]:

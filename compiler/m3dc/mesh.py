@@ -12,7 +12,7 @@ from .transform import unit
 from .values import Mesh, Record, TableValue
 
 MOST_REPORTED = 20
-PIECE = 1 << 13
+PIECE = 1 << 15
 COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
 
 _NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
@@ -28,9 +28,15 @@ def degenerate(u: Columns, v: Columns) -> NDArray[np.bool_]:
         size = np.maximum.reduce([np.abs(column) for column in (*u, *v)])
         ux, uy, uz = (column / size for column in u)
         vx, vy, vz = (column / size for column in v)
-        cross = (uy * vz - uz * vy) ** 2 + (uz * vx - ux * vz) ** 2 + (ux * vy - uy * vx) ** 2
-        lengths = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz)
+        cross, lengths = _squares((ux, uy, uz), (vx, vy, vz))
         return np.logical_not(cross > COLLINEAR**2 * lengths)
+
+
+def _squares(u: Columns, v: Columns) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """|U x V|² and |U|² |V|²."""
+    (ux, uy, uz), (vx, vy, vz) = u, v
+    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    return x * x + y * y + z * z, (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz)
 
 
 def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.intp]:
@@ -41,8 +47,13 @@ def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> 
         a, b, c = corners[start : start + PIECE].T.astype(np.intp)
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = ((x.take(i), y.take(i), z.take(i)) for i in (a, b, c))
         u, v = (cx - bx, cy - by, cz - bz), (ax - bx, ay - by, az - bz)
-        found.append(np.flatnonzero(degenerate(u, v)) + start)
-    return np.concatenate(found)
+        cross, lengths = _squares(u, v)
+        # Nearly all are far from flat, which is told without scaling them.
+        rows = np.flatnonzero(np.logical_not(cross > 4 * COLLINEAR**2 * lengths))
+        if rows.size:
+            (ux, uy, uz), (vx, vy, vz) = ([column[rows] for column in edge] for edge in (u, v))
+            found.append(rows[degenerate((ux, uy, uz), (vx, vy, vz))] + start)
+    return np.concatenate(found) if found else np.zeros(0, np.intp)
 
 
 def polygons(record: Record, findings: Findings, *, whole: bool) -> None:

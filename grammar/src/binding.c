@@ -94,8 +94,33 @@ done:
     return result;
 }
 
+PyDoc_STRVAR(only_numbers_doc,
+             "only_numbers(source, start, end) -> bool\n\n"
+             "See tree_sitter_m3d.bulk.only_numbers.");
+
+static PyObject *only_numbers(PyObject *module, PyObject *arguments) {
+    (void)module;
+    Py_buffer source;
+    Py_ssize_t start, end;
+    if (!PyArg_ParseTuple(arguments, "y*nn:only_numbers", &source, &start, &end)) return NULL;
+    PyObject *result = NULL;
+    if (start < 0 || start > end || end > source.len) {
+        PyErr_SetString(PyExc_ValueError, "start and end must lie within the source, in this order");
+    } else {
+        const uint8_t *text = source.buf;
+        bool only;
+        Py_BEGIN_ALLOW_THREADS
+        only = table_reader_only_numbers(text + start, text + end);
+        Py_END_ALLOW_THREADS
+        result = PyBool_FromLong(only);
+    }
+    PyBuffer_Release(&source);
+    return result;
+}
+
 static PyMethodDef methods[] = {
     {"language", language, METH_NOARGS, "language() -> capsule\n\nThe tree-sitter language, for tree_sitter.Language."},
+    {"only_numbers", only_numbers, METH_VARARGS, only_numbers_doc},
     {"read_table", read_table, METH_VARARGS, read_table_doc},
     {NULL, NULL, 0, NULL},
 };

@@ -24,6 +24,9 @@ typedef struct {
     const char *expected; /* at the place where it stopped; NULL: the text ended with a whole row */
 } TableReader;
 
+/* Whether bytes are all such as a table of numerals and vectors without comments is made of. */
+bool table_reader_only_numbers(const uint8_t *from, const uint8_t *to);
+
 /* To be called once, before all else: numbers are read with a point, whatever the locale of the process. */
 void table_reader_prepare(void);
 

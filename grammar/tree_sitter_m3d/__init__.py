@@ -5,7 +5,7 @@
 
 - `language()` is the tree-sitter language; `HIGHLIGHTS_QUERY`, `FOLDS_QUERY`, `INDENTS_QUERY`, `LOCALS_QUERY` and
   `TAGS_QUERY` are the texts of its queries.
-- `read_table` reads the numbers of a big table.
+- `read_table` reads the numbers of a big table; `only_numbers` says whether a stretch of text holds nothing else.
 - `blank_comments` makes spaces of comments.
 - `tree_sitter_m3d.table.LANGUAGE` describes every block and statement.
 - `tree_sitter_m3d.formal` says where a text stops being a sentence of the language, and what could stand there.
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._binding import language
-    from .bulk import Stop, TableData, read_table
+    from .bulk import Stop, TableData, only_numbers, read_table
     from .comments import blank_comments
 
     FOLDS_QUERY: str
@@ -39,6 +39,7 @@ __all__ = [
     "TableData",
     "blank_comments",
     "language",
+    "only_numbers",
     "read_table",
 ]
 
@@ -47,6 +48,7 @@ _MODULES = {
     "TableData": "bulk",
     "blank_comments": "comments",
     "language": "_binding",
+    "only_numbers": "bulk",
     "read_table": "bulk",
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, cast
 
+from ._binding import only_numbers as _only_numbers
 from ._binding import read_table as _read_table
 
 Expected = Literal["number", "digit", "space", "<", ",", ">", "*/"]
@@ -52,3 +53,14 @@ def read_table(source: bytes | bytearray | memoryview, start: int, end: int, hea
         len(row) + 2 * row.count("v"),
         None if expected is None else Stop(at, cast(Expected, expected)),
     )
+
+
+def only_numbers(source: bytes | bytearray | memoryview, start: int, end: int) -> bool:
+    """Whether every byte of `source[start:end]` is one of those that numerals, vectors and white space are made of.
+
+    Gigabytes in a second, for it does not look at their order. Raises ValueError where the range is none.
+
+    >>> only_numbers(b"< 1, 2.5e-3, +4 >", 0, 17), only_numbers(b"< 1, x, 3 >", 0, 11)
+    (True, False)
+    """
+    return _only_numbers(source, start, end)

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tree_sitter_m3d import Stop, TableData, read_table
+from tree_sitter_m3d import Stop, TableData, only_numbers, read_table
 
 LAYOUTS = [("n", "nnn"), ("n", "nnnvvv"), ("", "nn"), ("", "nnvv"), ("nn", "v"), ("n", "v"), ("v", "n")]
 
@@ -219,3 +219,19 @@ def test_the_locale_does_not_matter() -> None:
         assert read("0.123456789012345678901", "", "n").rows[0] == 0.123456789012345678901
     finally:
         locale.setlocale(locale.LC_NUMERIC, before)
+
+
+@pytest.mark.parametrize("before", [0, 1, 255, 256, 257])
+def test_each_byte_is_of_numbers_or_not_wherever_it_stands(before: int) -> None:
+    allowed = b"0123456789.+-eE<>, \t\r\n\v\f"
+    for byte in range(256):
+        text = b"1" * before + bytes([byte]) + b"2" * 300
+        assert only_numbers(text, 0, len(text)) == (byte in allowed), chr(byte)
+        assert only_numbers(text, before + 1, len(text))
+        assert only_numbers(text, 0, before)
+
+
+@pytest.mark.parametrize(("start", "end"), [(-1, 2), (2, 1), (0, 4)])
+def test_a_range_that_is_none_is_refused(start: int, end: int) -> None:
+    with pytest.raises(ValueError, match="within the source"):
+        only_numbers(b"123", start, end)

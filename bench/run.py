@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from . import atm, compiler, paths, rendering, server
+from . import atm, cancel, compiler, paths, rendering, server
 from .child import RunError
 from .result import Aim, Result, notes, table
 from .workshop import Workshop, version
@@ -65,6 +65,7 @@ GROUPS = (
         ("mirage-terrain-shadows",),
         partial(rendering.mirage, name="terrain", shadows=True, work="mirage picture, the terrain, shadows"),
     ),
+    Group(("cancel",), cancel.cancelled),
     Group(("paths",), paths.paths),
     Group(("atm",), atm.picture),
     Group(("server-diagnostics", "server-hover", "server-completion", "server-pull"), server.small),

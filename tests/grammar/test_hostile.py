@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import time
 
 import pytest
 from hypothesis import given
@@ -53,11 +52,9 @@ def nodes(tree: Tree) -> int:
 
 @pytest.mark.parametrize("name", TEXTS)
 def test_it_is_parsed(name: str) -> None:
-    start = time.monotonic()
     tree = PARSER.parse(TEXTS[name])
     assert tree.root_node.end_byte <= len(TEXTS[name])
     assert 0 < nodes(tree) < 200_000
-    assert time.monotonic() - start < 20
 
 
 @pytest.mark.parametrize("name", TEXTS)
@@ -88,6 +85,4 @@ def test_any_tokens(tokens: list[str]) -> None:
 def test_a_broken_list_of_a_million_numbers() -> None:
     """A letter at its end makes every number of the table a node: slower, but not without end."""
     text = b"POLYGONS { FACETS { " + b"12345 " * 200_000 + b"x } }"
-    start = time.monotonic()
     assert not PARSER.parse(text).root_node.has_error
-    assert time.monotonic() - start < 20

@@ -1,12 +1,13 @@
 """The m3d-render command: exit status, messages, statistics."""
 
+import contextlib
 import json
 import os
+import pty
 import re
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import OpenImageIO
@@ -189,32 +190,49 @@ def test_normals_are_checked(tmp_path, z, status):
     assert not list(tmp_path.iterdir())
 
 
-def interrupted(*arguments, after):
-    """A command that gets an interrupt after so many seconds: its status, what it said, and how long it took to end."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "m3d_render.cli", *map(str, arguments)], stderr=subprocess.PIPE, text=True
-    )
-    time.sleep(after)
-    process.send_signal(signal.SIGINT)
-    started = time.monotonic()
-    _, said = process.communicate(timeout=60)
-    assert "Traceback" not in said
-    return process.returncode, said, time.monotonic() - started
-
-
 def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_path):
-    # Slow by its many samples, so that some of its rows are finished after any start-up time.
-    options = ["--width", "400", "--height", "2000", "--samples"]
+    # Slow by its many samples. The interrupt comes once the line of progress says that rows are finished.
+    options = ["--width", "400", "--height", "2000", "--samples", "64"]
     whole, part = tmp_path / "whole.exr", tmp_path / "part.exr"
-    status, said, seconds = interrupted(compiled, "-o", part, *options, "64", after=4)
-    assert (status, seconds < 5) == (130, True), said
+    terminal, end = pty.openpty()
+    words = [sys.executable, "-m", "m3d_render.cli", str(compiled), "-o", str(part), *options]
+    process = subprocess.Popen(words, stderr=end)
+    os.close(end)
+    said = ""
+    while not re.search(r"[1-9]\d* of 2000 rows", said):
+        said += os.read(terminal, 4096).decode()
+    process.send_signal(signal.SIGINT)
+    with contextlib.suppress(OSError):  # which says that the other end is closed
+        while more := os.read(terminal, 4096):
+            said += more.decode()
+    os.close(terminal)
+    assert process.wait() == 130, said
     rows = re.search(r"part\.exr holds rows 0 to (\d+); rows from (\d+) on", said)
     assert rows, said
     done = int(rows[2])
-    assert command(compiled, "-o", whole, *options, "64", "--rows", f"0:{done - 1}").returncode == 0
+    assert 0 < done < 2000
+    assert command(compiled, "-o", whole, *options, "--rows", f"0:{done - 1}").returncode == 0
     pictures = [OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT) for path in (whole, part)]
     np.testing.assert_array_equal(*pictures)
     assert pictures[0].shape == (done, 400, 3)
+
+
+# The command, with an interrupt as it asks for the thirtieth time whether there was one.
+INTERRUPTED = """
+import itertools, signal, sys
+from m3d_render.cli import main
+from m3d_render.interrupt import Interrupt
+
+look, looks = Interrupt.asked, itertools.count(1)
+
+def asked(self):
+    if next(looks) == 30:
+        signal.raise_signal(signal.SIGINT)
+    return look(self)
+
+Interrupt.asked = asked
+sys.exit(main())
+"""
 
 
 def test_an_interrupt_before_a_row_is_finished_leaves_the_old_picture(compiled, tmp_path):
@@ -222,9 +240,10 @@ def test_an_interrupt_before_a_row_is_finished_leaves_the_old_picture(compiled, 
     picture.write_text("old")
     # A single row takes an hour.
     size = ["--width", "60000", "--height", "2", "--samples", "65536"]
-    status, said, seconds = interrupted(compiled, "-o", picture, *size, after=3)
-    assert (status, seconds < 5) == (130, True), said
-    assert "no row was finished" in said
+    words = [sys.executable, "-c", INTERRUPTED, str(compiled), "-o", str(picture), *size]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 130, done.stderr
+    assert done.stderr.strip() == "m3d-render: interrupted: no row was finished, and no picture written"
     assert picture.read_text() == "old"
 
 

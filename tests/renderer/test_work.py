@@ -93,23 +93,15 @@ SLOW = {
 
 
 @pytest.mark.parametrize("name", [*SLOW, "much light to sample"])
-def test_a_cancelled_rendering_ends_within_a_tenth_of_a_second(scene, name):
+def test_a_cancelled_rendering_ends(scene, name):
+    """How soon is measured by the row `cancel` of the bench; to the end each of these would take minutes to years."""
     if name not in SLOW:
         slow = merman(40, 30).set(ambient=Ambient(0.2, (1, 1, 1), 1_000_000, 50))
         scene = m3d_render.prepare(slow.build())
-    asked = threading.Event()
-    threading.Timer(0.7, asked.set).start()
-    when = []
-
-    def cancel():
-        if asked.is_set() and not when:
-            when.append(time.perf_counter())
-        return asked.is_set()
-
+    asked = itertools.count(1)
     with pytest.raises(m3d_render.Cancelled) as cancelled:
-        scene.render(cancel=cancel, **SLOW.get(name, {}))
-    # Twice the tenth that it may take, for a machine that does other things too.
-    assert time.perf_counter() - when[0] < 0.2
+        scene.render(cancel=lambda: next(asked) == 30, **SLOW.get(name, {}))
+    assert next(asked) == 31, "it was asked again after it had said yes"
     rendering = cancelled.value.rendering
     assert rendering.region.bottom == rendering.region.top + len(rendering.picture) - 1
 

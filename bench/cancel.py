@@ -1,0 +1,52 @@
+"""The row about giving up: how soon a rendering ends that is told to."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Any
+
+import m3d_render
+from m3d_render.rendering import Prepared
+
+from .result import Aim, Result, middle, spread
+from .workshop import Workshop
+
+ENOUGH = 100.0
+"""Milliseconds within which a person feels that something happens at once."""
+
+SLOW: dict[str, dict[str, Any]] = {
+    "many pixels": {"width": 20_000, "height": 10_000},
+    "many samples a pixel": {"samples": 65_536},
+    "tiles": {"width": 20_000, "height": 10_000, "tiles": lambda _: None},
+}
+"""What the merman scene is asked for: each would take from minutes to days."""
+
+
+def cancelled(shop: Workshop) -> list[Result]:
+    """From the moment, in the midst of the work, at which it is told to end, to its end; the slowest counts."""
+    scene = m3d_render.prepare(shop.ir("merman"))
+    samples = {name: [_milliseconds(scene, options) for _ in range(shop.repeats)] for name, options in SLOW.items()}
+    return [
+        Result(
+            "cancel",
+            "giving up a rendering, the slowest of three kinds",
+            "a tenth of a second",
+            "ms",
+            max(middle(taken) for taken in samples.values()),
+            ENOUGH,
+            Aim(1.0),
+            "; ".join(f"{name} {spread(taken)} ms" for name, taken in samples.items()),
+        )
+    ]
+
+
+def _milliseconds(scene: Prepared, options: dict[str, Any]) -> float:
+    asked: list[float] = []
+    timer = threading.Timer(0.5, lambda: asked.append(time.perf_counter()))
+    timer.start()
+    try:
+        scene.render(cancel=lambda: bool(asked), **options)
+    except m3d_render.Cancelled:
+        return 1000.0 * (time.perf_counter() - asked[0])
+    raise RuntimeError("the rendering was done before it could be given up")

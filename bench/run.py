@@ -188,6 +188,7 @@ METHOD = """\
   every ray ends. Embree (`bench/embree/primary.c`) gets the same camera, triangles and spheres; a sample of either is
   the least of three pictures.
 - Curved and straight pictures are measured in eight bands by turns, and the bands' medians added.
+- Giving up is timed by the clock, from the moment at which another thread asks for it, half a second into the work.
 - The language servers get edits from one client (`bench/lsp_client.py`), each in its turn: a number is replaced in a
   text of 2,000 lines, and the time is taken until its diagnostics are there; then a hover and a completion.
 - What is not installed is left out, and its column says so. `apt install povray libembree-dev` brings two.

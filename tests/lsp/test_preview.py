@@ -189,6 +189,15 @@ async def test_which_statement_made_a_pixel(editor: Editor) -> None:
     assert found[1].primitive == 1
     for outside in ({"x": 0, "y": 0}, {"x": 101, "y": 0}, {"x": 0, "y": 81}):
         assert await view.ask("pick", **outside) is None
+    height, width = whole.layers["solid"].shape
+    for times in (2, 3):  # in a picture so many times as large
+        larger = {"width": times * width, "height": times * height}
+        for y, x in np.argwhere(whole.layers["solid"] >= 0)[::200].tolist():
+            here = await view.ask("pick", x=x, y=y)
+            assert await view.ask("pick", x=times * x, y=times * y + 1, **larger) == here
+        assert await view.ask("pick", x=times * width, y=0, **larger) is None
+    smaller = await view.ask("pick", x=0, y=0, width=1, height=1)
+    assert smaller == await view.ask("pick", x=width // 2, y=height // 2)
     with pytest.raises(JsonRpcInvalidParams, match="x must be"):
         await view.ask("pick", x=-1, y=0)
 

@@ -13,6 +13,14 @@ export type Show = Optics | "both";
 /** A place in the scene's text, as the host counts it; the picture part only hands it back. */
 export type Place = unknown;
 
+/** A pixel of a picture of this size. */
+export interface Pixel {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
 export interface RenderRequest {
   optics: Optics;
   /** The picture is made smaller, keeping its proportions, to fit; without, it has the scene's own size. */
@@ -96,6 +104,9 @@ export interface Options {
   pinned: boolean;
 }
 
+/** What a person chooses in the preview itself. */
+export type Choice = Partial<Pick<Options, "show" | "resolution">>;
+
 /** What happens outside. */
 export interface Events {
   /** There is another scene, or its text has changed. */
@@ -119,8 +130,8 @@ export interface Host {
   listen(events: Events): void;
   /** A new request for the same optics ends the one before, whose answer is then "cancelled". */
   render(request: RenderRequest, tile: (tile: Tile) => void): Promise<Rendered>;
-  /** What the pixel shows; null: nothing. */
-  pick(optics: Optics, x: number, y: number): Promise<Hit | null>;
+  /** What the pixel shows; null: nothing. The host may have a picture of another size by now. */
+  pick(optics: Optics, pixel: Pixel): Promise<Hit | null>;
   /** Where the picture shows the thing that the cursor is in; null: the cursor is in none. */
   mask(optics: Optics): Promise<Mask | null>;
   /** Shows where it is written, the primitive alone or its whole solid. */
@@ -128,4 +139,6 @@ export interface Host {
   /** Lets a person choose a file, and writes the picture into it. */
   save(optics: Optics): void;
   pin(pinned: boolean): void;
+  /** Something was chosen, for a host that remembers it until it shows the preview again. */
+  chose(choice: Choice): void;
 }

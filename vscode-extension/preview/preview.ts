@@ -5,14 +5,14 @@
  */
 
 import { Exposure, type Limits, type Quality } from "./exposure";
-import type { Events, Hit, Host, Mask, Optics, Options, Scene, Show } from "./host";
+import type { Choice, Events, Hit, Host, Mask, Optics, Options, Scene, Show } from "./host";
 import { listenToKeys, listenToPointer } from "./input";
 import { Pause } from "./pause";
 import { css, hitText, pixelText } from "./readout";
 import { Stage } from "./stage";
 import { badge } from "./state";
 import { View } from "./view";
-import { Viewport, type Point } from "./viewport";
+import { isInside, pixelAt, Viewport, type Point } from "./viewport";
 
 /** How long the text has rested before a full picture is made, in ms. */
 const REST = 400;
@@ -49,7 +49,8 @@ export class Preview implements Events {
     picture: new Pause(CALM, () => this.render("draft")),
     cursor: new Pause(CALM, () => this.askMasks()),
   };
-  private pointer: { at: Point; optics: Optics; hit: string } | null = null;
+  /** What is pointed at, by fractions of the picture's size: drafts and full pictures come and go under it. */
+  private pointer: { place: Point; optics: Optics; hit: string } | null = null;
   private asked = 0;
   private readonly masksAsked: Record<Optics, number> = { mirage: 0, straight: 0 };
   private drawn = 0;
@@ -66,11 +67,11 @@ export class Preview implements Events {
       zoom: (factor: number, about?: Point) => this.look(() => this.viewport.zoomBy(factor, about)),
       fit: () => this.look(() => this.viewport.fit()),
       actual: () => this.look(() => this.viewport.zoomTo(1 / devicePixelRatio)),
-      show: (show: Show) => this.options({ show }),
+      show: (show: Show) => this.choose({ show }),
     };
     this.view = new View(root, {
       ...wishes,
-      wholeSize: (on) => this.options({ resolution: on ? "scene" : "pane" }),
+      wholeSize: (on) => this.choose({ resolution: on ? "scene" : "pane" }),
       save: () => this.save(),
       pin: (pinned) => host.pin(pinned),
       divide: (part) => this.divide(part),
@@ -84,7 +85,13 @@ export class Preview implements Events {
           this.fresh[optics] = false;
           this.refresh();
         },
-        () => void this.askMask(optics),
+        () => {
+          this.catchUp();
+          void this.askMask(optics);
+          if (this.pointer?.optics === optics && this.pointer.hit !== "") {
+            void this.ask();
+          }
+        },
       );
     this.exposures = { mirage: exposure("mirage"), straight: exposure("straight") };
     listenToPointer(this.view.canvas, wishes);
@@ -169,6 +176,11 @@ export class Preview implements Events {
 
   // --- what a person wishes ------------------------------------------------------------------------------------
 
+  private choose(choice: Choice): void {
+    this.options(choice);
+    this.host.chose(choice);
+  }
+
   private look(change: () => void): void {
     change();
     this.refresh();
@@ -186,7 +198,7 @@ export class Preview implements Events {
 
   private point(at: Point | null): void {
     this.dwelt.stop();
-    const found = at === null ? null : this.pixel(at);
+    const found = at === null ? null : this.find(at);
     this.pointer = found === null ? null : { ...found, hit: "" };
     this.asked++;
     if (found !== null) {
@@ -201,23 +213,22 @@ export class Preview implements Events {
     if (size === null) {
       return;
     }
-    const from = this.pointer?.at ?? { x: Math.floor(size.width / 2), y: Math.floor(size.height / 2) };
-    const at = {
-      x: Math.min(Math.max(from.x + x, 0), size.width - 1),
-      y: Math.min(Math.max(from.y + y, 0), size.height - 1),
+    const from = pixelAt(this.pointer?.place ?? { x: 0.5, y: 0.5 }, size);
+    const place = {
+      x: (Math.min(Math.max(from.x + x, 0), size.width - 1) + 0.5) / size.width,
+      y: (Math.min(Math.max(from.y + y, 0), size.height - 1) + 0.5) / size.height,
     };
-    const side = (at.x + 0.5) / size.width < this.divider ? "mirage" : "straight";
-    this.pointer = { at, optics: this.options_.show === "both" ? side : optics, hit: "" };
+    this.pointer = { place, optics: this.side(place), hit: "" };
     this.dwelt.start();
     this.refresh();
   }
 
   private async reveal(at: Point | null, whole: boolean): Promise<void> {
-    const found = at === null ? this.pointer : this.pixel(at);
+    const found = at === null ? this.pointer : this.find(at);
     if (found === null) {
       return;
     }
-    const hit = await this.pick(found.optics, found.at);
+    const hit = await this.pick(found.optics, found.place);
     if (hit !== null) {
       this.host.reveal(hit, whole);
     }
@@ -230,16 +241,17 @@ export class Preview implements Events {
     if (pointer === null || this.reason !== null) {
       return;
     }
-    const hit = await this.pick(pointer.optics, pointer.at);
+    const hit = await this.pick(pointer.optics, pointer.place);
     if (asked === this.asked && this.pointer === pointer) {
       pointer.hit = hitText(hit);
       this.refresh();
     }
   }
 
-  private async pick(optics: Optics, at: Point): Promise<Hit | null> {
+  private async pick(optics: Optics, place: Point): Promise<Hit | null> {
+    const { shown } = this.exposures[optics];
     try {
-      return await this.host.pick(optics, at.x, at.y);
+      return shown === null ? null : await this.host.pick(optics, pixelAt(place, shown));
     } catch {
       return null; // the picture has gone meanwhile
     }
@@ -304,16 +316,21 @@ export class Preview implements Events {
     return resolution === "scene" ? { samples } : { maxWidth: pane.width, maxHeight: pane.height, samples };
   }
 
-  /** The pane has another size. A larger one may hold a larger picture. */
+  /** The pane has another size. */
   private resize(): void {
     const { clientWidth, clientHeight } = this.view.pane;
-    const grown = this.shown().some(({ full }) => full?.limited === true && this.isSmaller(full));
     this.viewport.setPane(clientWidth, clientHeight);
     this.stage.resize(clientWidth, clientHeight, devicePixelRatio);
+    this.catchUp();
+    this.refresh(true);
+  }
+
+  /** The pane may have grown, be it while a picture was on its way: then a larger one is made. */
+  private catchUp(): void {
+    const grown = this.shown().some(({ full }) => full?.limited === true && this.isSmaller(full));
     if (grown && this.options_.resolution === "pane") {
       this.rested.start();
     }
-    this.refresh(true);
   }
 
   /** Whether a picture is notably smaller than the pane. */
@@ -324,14 +341,17 @@ export class Preview implements Events {
 
   // --- showing -------------------------------------------------------------------------------------------------
 
-  /** The pixel at a point of the pane, and the picture it is of. */
-  private pixel(at: Point): { at: Point; optics: Optics } | null {
+  /** The place in the picture at a point of the pane, and which picture is there. */
+  private find(at: Point): { place: Point; optics: Optics } | null {
+    const place = this.viewport.fraction(at);
+    const optics = this.side(place);
+    return isInside(place) && this.exposures[optics].shown !== null ? { place, optics } : null;
+  }
+
+  /** Which picture is shown at a place. */
+  private side(place: Point): Optics {
     const { show } = this.options_;
-    const side = this.viewport.fraction(at).x < this.divider ? "mirage" : "straight";
-    const optics = show === "both" ? side : show;
-    const { shown } = this.exposures[optics];
-    const pixel = shown === null ? null : this.viewport.pixel(at, shown);
-    return pixel === null ? null : { at: pixel, optics };
+    return show !== "both" ? show : place.x < this.divider ? "mirage" : "straight";
   }
 
   /** Draws before the next frame, once for however many changes. */
@@ -359,6 +379,7 @@ export class Preview implements Events {
     }
     const { pointer } = this;
     const under = pointer === null ? null : this.exposures[pointer.optics].shown;
+    const pixel = pointer === null || under === null ? null : pixelAt(pointer.place, under);
     this.stage.draw({
       show: this.options_.show,
       divider: this.divider,
@@ -366,18 +387,18 @@ export class Preview implements Events {
         mirage: { bitmap: mirage.shown, mask: this.masks.mirage },
         straight: { bitmap: straight.shown, mask: this.masks.straight },
       },
-      pixel: pointer === null || under === null ? null : { at: pointer.at, size: under },
+      pixel,
     });
     const { frame } = this.viewport;
     this.view.setDivider(this.divider, frame.x + this.divider * frame.width);
     this.view.setZoom(full ? this.viewport.scale * devicePixelRatio : null);
     this.view.setName(this.scene_?.name ?? "no scene", full ? `, ${full.width} by ${full.height} pixels` : "");
     this.showState(shown);
-    if (pointer === null || under === null) {
+    if (pointer === null || under === null || pixel === null) {
       this.view.setReadout(this.summary(shown), null, "");
     } else {
-      const color = under.color(pointer.at.x, pointer.at.y);
-      const text = pixelText(pointer.at, color, pointer.optics);
+      const color = under.color(pixel.x, pixel.y);
+      const text = pixelText(pixel, color, pointer.optics);
       this.view.setReadout(text, color === null ? null : css(color), pointer.hit);
     }
   }

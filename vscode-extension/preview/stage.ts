@@ -1,8 +1,8 @@
 /** Draws onto the canvas: one picture or two under the divider, the mask of a thing, and the pixel pointed at. */
 
 import type { Bitmap } from "./bitmap";
-import type { Mask, Optics, Show } from "./host";
-import type { Point, Viewport } from "./viewport";
+import type { Mask, Optics, Pixel, Show } from "./host";
+import type { Viewport } from "./viewport";
 
 export interface Layer {
   bitmap: Bitmap | null;
@@ -14,8 +14,8 @@ export interface Look {
   /** Where the two pictures meet, as a part of the picture's width; the mirage is to the left of it. */
   divider: number;
   layers: Record<Optics, Layer>;
-  /** The pixel pointed at, and the size of the picture whose pixel it is. */
-  pixel: { at: Point; size: { width: number; height: number } } | null;
+  /** The pixel pointed at. */
+  pixel: Pixel | null;
 }
 
 /** Below this many pixels of the pane for one of the picture its pixels are blended, above they are squares. */
@@ -120,10 +120,10 @@ export class Stage {
     }
     const { context } = this;
     const { x, y, width, height } = this.viewport.frame;
-    const { at, size } = look.pixel;
-    const dx = Math.max(width / size.width, 7);
-    const dy = Math.max(height / size.height, 7);
-    const middle = { x: x + ((at.x + 0.5) * width) / size.width, y: y + ((at.y + 0.5) * height) / size.height };
+    const { pixel } = look;
+    const dx = Math.max(width / pixel.width, 7);
+    const dy = Math.max(height / pixel.height, 7);
+    const middle = { x: x + ((pixel.x + 0.5) * width) / pixel.width, y: y + ((pixel.y + 0.5) * height) / pixel.height };
     for (const [style, line] of [
       ["black", 3],
       ["white", 1],

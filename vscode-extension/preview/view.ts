@@ -153,6 +153,7 @@ export class View {
     this.swatch.style.backgroundColor = color ?? "";
     this.pixel.textContent = pixel;
     this.hit.textContent = hit;
+    this.hit.title = hit;
   }
 
   private setUpDivider(actions: Actions): void {

@@ -5,6 +5,8 @@
  * is shown at the same place, as large.
  */
 
+import type { Pixel } from "./host";
+
 export interface Point {
   x: number;
   y: number;
@@ -81,17 +83,18 @@ export class Viewport {
     return { x: (point.x - x) / width, y: (point.y - y) / height };
   }
 
-  /** The pixel of a picture of this size at a point of the pane; null outside of it. */
-  pixel(point: Point, size: { width: number; height: number }): Point | null {
-    const at = this.fraction(point);
-    if (at.x < 0 || at.y < 0 || at.x >= 1 || at.y >= 1) {
-      return null;
-    }
-    return { x: Math.floor(at.x * size.width), y: Math.floor(at.y * size.height) };
-  }
-
   private keepInSight(): void {
     const clamp = (value: number): number => Math.min(Math.max(value, 0), 1);
     this.middle = { x: clamp(this.middle.x), y: clamp(this.middle.y) };
   }
+}
+
+/** Whether a place, as fractions of the picture's size, lies within it. */
+export function isInside({ x, y }: Point): boolean {
+  return 0 <= x && x < 1 && 0 <= y && y < 1;
+}
+
+/** The pixel that a picture has at such a place. Pictures of one scene in several sizes have there what is the same. */
+export function pixelAt({ x, y }: Point, { width, height }: { width: number; height: number }): Pixel {
+  return { x: Math.floor(x * width), y: Math.floor(y * height), width, height };
 }

@@ -7,7 +7,7 @@
 import { NotificationType, RequestType } from "vscode-languageclient/node";
 import type { Position, Range, TextDocumentIdentifier } from "vscode-languageclient/node";
 
-import type { Optics, Rendered } from "../preview/host";
+import type { Optics, Pixel, Rendered } from "../preview/host";
 
 export interface Analysed {
   uri: string;
@@ -97,7 +97,7 @@ export const dump = new RequestType<OfDocument & { position?: Position }, Dump |
 export const irTree = new RequestType<OfDocument, Tree | null, void>("m3d/irTree");
 export const syntaxTree = new RequestType<OfDocument, Tree | null, void>("m3d/syntaxTree");
 export const render = new RequestType<RenderParams, Rendered, void>("m3d/preview/render");
-export const pick = new RequestType<{ preview: string; x: number; y: number }, Pick | null, void>("m3d/preview/pick");
+export const pick = new RequestType<{ preview: string } & Pixel, Pick | null, void>("m3d/preview/pick");
 export const mask = new RequestType<{ preview: string; position: Position }, Mask | null, void>("m3d/preview/mask");
 export const save = new RequestType<OfDocument & { optics: Optics; path: string; samples?: number }, Saved, void>(
   "m3d/preview/save",

@@ -1,13 +1,29 @@
 /** The page of a preview in VS Code: the picture part, with the extension as its host. */
 
-import type { Events, Hit, Host, Mask, Optics, Rendered, RenderRequest, Tile } from "../preview/host";
+import type {
+  Choice,
+  Events,
+  Hit,
+  Host,
+  Mask,
+  Optics,
+  Options,
+  Pixel,
+  Rendered,
+  RenderRequest,
+  Tile,
+} from "../preview/host";
 import { Preview } from "../preview/preview";
-import type { Answer, FromPage, ToPage, WireTile } from "./messages";
+import type { Answer, FromPage, Kept, ToPage, WireTile } from "./messages";
 
 import "../preview/style.css";
 import "./theme.css";
 
-declare function acquireVsCodeApi(): { postMessage(message: FromPage): void; setState(state: unknown): void };
+declare function acquireVsCodeApi(): {
+  postMessage(message: FromPage): void;
+  getState(): Partial<Kept> | undefined;
+  setState(state: Partial<Kept>): void;
+};
 
 interface Question {
   resolve(answer: Answer): void;
@@ -19,6 +35,8 @@ class Extension implements Host {
   private readonly api = acquireVsCodeApi();
   private readonly questions = new Map<number, Question>();
   private last = 0;
+  /** What was chosen before VS Code was closed: it counts more than the settings do, until these change. */
+  private remembered: Choice | null = this.api.getState()?.chosen ?? {};
 
   listen(events: Events): void {
     window.addEventListener("message", ({ data }: MessageEvent<ToPage>) => this.take(data, events));
@@ -29,8 +47,8 @@ class Extension implements Host {
     return this.ask((id) => ({ type: "render", id, request }), tile) as Promise<Rendered>;
   }
 
-  pick(optics: Optics, x: number, y: number): Promise<Hit | null> {
-    return this.ask((id) => ({ type: "pick", id, optics, x, y })) as Promise<Hit | null>;
+  pick(optics: Optics, pixel: Pixel): Promise<Hit | null> {
+    return this.ask((id) => ({ type: "pick", id, optics, pixel })) as Promise<Hit | null>;
   }
 
   mask(optics: Optics): Promise<Mask | null> {
@@ -47,6 +65,14 @@ class Extension implements Host {
 
   pin(pinned: boolean): void {
     this.api.postMessage({ type: "pin", pinned });
+  }
+
+  chose(choice: Choice): void {
+    this.keep({ chosen: { ...this.api.getState()?.chosen, ...choice } });
+  }
+
+  private keep(part: Partial<Kept>): void {
+    this.api.setState({ ...this.api.getState(), ...part });
   }
 
   private ask(message: (id: number) => FromPage, tile?: (tile: Tile) => void): Promise<Answer> {
@@ -69,12 +95,11 @@ class Extension implements Host {
         this.questions.get(message.id)?.tile?.(decoded(message.tile));
         break;
       case "scene":
-        // What VS Code hands back when it opens the preview again after a restart.
-        this.api.setState({ uri: message.scene.id });
+        this.keep({ uri: message.scene.id });
         events.scene(message.scene);
         break;
       case "options":
-        events.options(message.options);
+        this.options(message.options, events);
         break;
       case "visible":
         events.visible(message.visible);
@@ -85,6 +110,17 @@ class Extension implements Host {
       default:
         events[message.type]();
     }
+  }
+
+  private options(options: Partial<Options>, events: Events): void {
+    events.options({ ...options, ...this.remembered });
+    if (this.remembered === null && options.show !== undefined) {
+      this.keep({ chosen: {} });
+    }
+    if (options.pinned !== undefined) {
+      this.keep({ pinned: options.pinned });
+    }
+    this.remembered = null;
   }
 
   private close(id: number): Question | undefined {

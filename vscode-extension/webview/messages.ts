@@ -1,6 +1,6 @@
 /** What the page of a preview and the extension say to each other. */
 
-import type { Hit, Mask, Optics, Options, Rendered, RenderRequest, Scene, Tile } from "../preview/host";
+import type { Choice, Hit, Mask, Optics, Options, Pixel, Rendered, RenderRequest, Scene, Tile } from "../preview/host";
 
 /** A tile with its pixels as base64: they come so from the language server, and are only handed on. */
 export type WireTile = Omit<Tile, "pixels"> & { pixels: string };
@@ -8,12 +8,19 @@ export type WireTile = Omit<Tile, "pixels"> & { pixels: string };
 /** From the page: questions, which have an id and are answered, and wishes. */
 export type FromPage =
   | { type: "render"; id: number; request: RenderRequest }
-  | { type: "pick"; id: number; optics: Optics; x: number; y: number }
+  | { type: "pick"; id: number; optics: Optics; pixel: Pixel }
   | { type: "mask"; id: number; optics: Optics }
   | { type: "ready" }
   | { type: "reveal"; hit: Hit; whole: boolean }
   | { type: "save"; optics: Optics }
   | { type: "pin"; pinned: boolean };
+
+/** What VS Code hands back when it opens the preview again after a restart. */
+export interface Kept {
+  uri: string;
+  pinned: boolean;
+  chosen: Choice;
+}
 
 export type Answer = Rendered | Hit | Mask | null;
 

@@ -216,11 +216,20 @@ def primitives_at(ir: SceneIR, offset: int) -> tuple[Span, np.ndarray[tuple[int]
 
 
 def _pixel(server: Server, given: Given) -> tuple[Shown | None, int, int]:
-    """The picture that a pixel is of, if it has it, and its column and row."""
+    """The picture that a pixel is of, if it has it, and its column and row. What a client shows may be a picture of
+    another size, such as the one before: it then says which, and meant is what is at the same place."""
     shown = server.previews.shown(given.text("preview"))
     x, y = given.whole("x", 0), given.whole("y", 0)
-    inside = shown is not None and x < shown.width and y < shown.height
-    return (shown if inside else None), x, y
+    if shown is None:
+        return None, x, y
+    width, height = given.whole("width", 1, shown.width), given.whole("height", 1, shown.height)
+    inside = x < width and y < height
+    return (shown if inside else None), _middle(x, width, shown.width), _middle(y, height, shown.height)
+
+
+def _middle(i: int, count: int, of: int) -> int:
+    """Which of `of` equal parts the middle of the i-th of `count` lies in."""
+    return (2 * i + 1) * of // (2 * count)
 
 
 def _now(server: Server, shown: Shown) -> Good:

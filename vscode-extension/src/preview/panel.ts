@@ -222,8 +222,8 @@ export class PreviewPanel {
     }
   }
 
-  private async pick({ optics, x, y }: Extract<FromPage, { type: "pick" }>): Promise<Hit | null> {
-    const pick = await this.server.request(protocol.pick, { preview: this.id(optics), x, y });
+  private async pick({ optics, pixel }: Extract<FromPage, { type: "pick" }>): Promise<Hit | null> {
+    const pick = await this.server.request(protocol.pick, { preview: this.id(optics), ...pixel });
     if (pick === null) {
       return null;
     }

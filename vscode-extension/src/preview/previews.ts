@@ -3,6 +3,7 @@
 import * as path from "node:path";
 import * as vscode from "vscode";
 
+import type { Kept } from "../../webview/messages";
 import { isScene, sceneOf, type Scenes } from "../scenes";
 import type { Server } from "../server";
 import { PreviewPanel, VIEW_TYPE } from "./panel";
@@ -64,12 +65,12 @@ export class Previews implements vscode.Disposable {
   }
 
   private async restore(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
-    const uri = (state as { uri?: string } | undefined)?.uri;
+    const { uri, pinned = false } = (state ?? {}) as Partial<Kept>;
     try {
       const document =
         uri === undefined ? this.scenes.active : await vscode.workspace.openTextDocument(vscode.Uri.parse(uri));
       if (isScene(document)) {
-        this.add(panel, document);
+        this.add(panel, document).pin(pinned);
         return;
       }
     } catch {
@@ -78,7 +79,7 @@ export class Previews implements vscode.Disposable {
     panel.dispose();
   }
 
-  private add(panel: vscode.WebviewPanel, document: vscode.TextDocument): void {
+  private add(panel: vscode.WebviewPanel, document: vscode.TextDocument): PreviewPanel {
     const preview = new PreviewPanel(panel, document, this.server, this.scenes, this.extension);
     this.panels.add(preview);
     preview.onDidDispose(() => this.panels.delete(preview));
@@ -93,5 +94,6 @@ export class Previews implements vscode.Disposable {
         preview.follow(this.scenes.active);
       }
     });
+    return preview;
   }
 }

@@ -36,6 +36,14 @@ export class Workbench {
     return new Workbench(browser, page, vscode.folder);
   }
 
+  /** Loads the window anew, as when VS Code is closed and opened again. */
+  async reload(): Promise<void> {
+    const loaded = this.page.waitForEvent("load");
+    await this.command("Developer: Reload Window");
+    await loaded;
+    await this.page.locator(".monaco-workbench .tabs-container .tab").first().waitFor();
+  }
+
   async close(): Promise<void> {
     await this.browser.close();
   }

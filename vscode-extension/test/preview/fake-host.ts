@@ -1,6 +1,6 @@
 /** A host whose answers a test gives when it likes. */
 
-import type { Events, Hit, Host, Mask, Optics, Rendered, RenderRequest, Tile } from "../../preview/host";
+import type { Choice, Events, Hit, Host, Mask, Optics, Pixel, Rendered, RenderRequest, Tile } from "../../preview/host";
 
 export interface Asked {
   request: RenderRequest;
@@ -38,8 +38,8 @@ export class FakeHost implements Host {
     });
   }
 
-  pick(optics: Optics, x: number, y: number): Promise<Hit | null> {
-    this.calls.push(["pick", optics, x, y]);
+  pick(optics: Optics, { x, y, width, height }: Pixel): Promise<Hit | null> {
+    this.calls.push(["pick", optics, x, y, `of ${width} x ${height}`]);
     return Promise.resolve(this.hit);
   }
 
@@ -58,6 +58,10 @@ export class FakeHost implements Host {
 
   pin(pinned: boolean): void {
     this.calls.push(["pin", pinned]);
+  }
+
+  chose(choice: Choice): void {
+    this.calls.push(["chose", choice]);
   }
 }
 

@@ -224,8 +224,28 @@ test("a click leads to the text of what is there, and nowhere where nothing is",
   canvas?.dispatchEvent(new PointerEvent("pointermove", { clientX: 120, clientY: 20 }));
   press("Enter");
   await settled();
-  expect(host.calls).toContainEqual(["pick", "mirage", 1, 0]);
+  expect(host.calls).toContainEqual(["pick", "mirage", 1, 0, "of 2 x 2"]);
   expect(host.calls.some(([name]) => name === "reveal")).toBe(false);
+});
+
+test("the pointer stays where it is as pictures of other sizes come, and what is there is asked for anew", async () => {
+  scene();
+  await rendered();
+  root.querySelector("canvas")?.dispatchEvent(new PointerEvent("pointermove", { clientX: 120, clientY: 20 }));
+  vi.advanceTimersByTime(120);
+  await drawn();
+  expect(text(".m3d-pixel")).toContain("x 1  y 0 ");
+  scene({ version: 2 });
+  calm();
+  const fine = host.asked[host.asked.length - 1];
+  fine?.tile({ width: 20, height: 20, top: 0, step: 20, columns: 1, rows: 1, pixels: new Uint8Array(3) });
+  await drawn();
+  expect(text(".m3d-pixel")).toContain("x 14  y 4 ");
+  await fine?.answer({ version: 2, width: 20, height: 20 });
+  expect(host.calls.filter(([name]) => name === "pick")).toEqual([
+    ["pick", "mirage", 1, 0, "of 2 x 2"],
+    ["pick", "mirage", 14, 4, "of 20 x 20"],
+  ]);
 });
 
 test("what the cursor is in is asked for again with each new picture", async () => {
@@ -272,4 +292,30 @@ test("zooming is said in percent", async () => {
   press("0");
   await drawn();
   expect(text(".m3d-zoom")).toBe("5000 %");
+});
+
+test("what is chosen in it is told, what is set from outside is not", () => {
+  scene();
+  host.calls.length = 0;
+  click("Straight");
+  const full = root.querySelector<HTMLElement>(".m3d-whole input");
+  full?.click();
+  full?.click();
+  host.events?.options({ show: "both", resolution: "scene" });
+  expect(host.calls.filter(([name]) => name === "chose")).toEqual([
+    ["chose", { show: "straight" }],
+    ["chose", { resolution: "scene" }],
+    ["chose", { resolution: "pane" }],
+  ]);
+});
+
+test("a pane that grew while its picture was on its way gets a larger one", async () => {
+  const width = vi.spyOn(HTMLElement.prototype, "clientWidth", "get").mockReturnValue(20);
+  scene();
+  width.mockReturnValue(200);
+  await host.asked[0]?.answer({ width: 20, height: 10 });
+  vi.advanceTimersByTime(400);
+  await host.asked[1]?.answer({ width: 160, height: 100 });
+  vi.advanceTimersByTime(400);
+  expect(host.asked.map(({ request }) => request.maxWidth)).toEqual([20, 200]);
 });

@@ -2,7 +2,7 @@
 
 import { beforeEach, expect, test } from "vitest";
 
-import { Viewport } from "../../preview/viewport";
+import { isInside, pixelAt, Viewport } from "../../preview/viewport";
 
 let viewport: Viewport;
 
@@ -58,10 +58,16 @@ test("it cannot be lost", () => {
 
 test("a picture of any size has its pixels where the picture is", () => {
   const size = { width: 50, height: 50 };
-  expect(viewport.pixel({ x: 100, y: 0 }, size)).toEqual({ x: 0, y: 0 });
-  expect(viewport.pixel({ x: 299.9, y: 199.9 }, size)).toEqual({ x: 49, y: 49 });
-  expect(viewport.pixel({ x: 204, y: 4 }, size)).toEqual({ x: 26, y: 1 });
+  for (const [point, pixel] of [
+    [{ x: 100, y: 0 }, { x: 0, y: 0 }],
+    [{ x: 299.9, y: 199.9 }, { x: 49, y: 49 }],
+    [{ x: 204, y: 4 }, { x: 26, y: 1 }],
+  ] as const) {
+    const place = viewport.fraction(point);
+    expect(isInside(place)).toBe(true);
+    expect(pixelAt(place, size)).toEqual({ ...pixel, ...size });
+  }
   for (const point of [{ x: 99, y: 50 }, { x: 300, y: 50 }, { x: 150, y: 200 }]) {
-    expect(viewport.pixel(point, size)).toBeNull();
+    expect(isInside(viewport.fraction(point))).toBe(false);
   }
 });

@@ -131,12 +131,6 @@ export class Workbench {
     await this.page.locator(".tab.active.dirty").waitFor({ state: "detached" });
   }
 
-  /** The line of the cursor, as the status bar has it. */
-  async line(): Promise<number> {
-    const text = await this.page.locator(".statusbar-item#status\\.editor\\.selection").innerText();
-    return Number(/Ln (\d+)/.exec(text)?.[1]);
-  }
-
   /** A word in an editor, by its text as it is drawn. */
   word(name: string, text: string): Locator {
     return this.editor(name).locator(".view-line span span", { hasText: new RegExp(`^\\s*${text}\\s*$`) }).first();

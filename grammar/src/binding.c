@@ -44,6 +44,13 @@ static int read_rows(TableReader *reader, PyObject *rows, PyObject *offsets, siz
     return resize(rows, count * width) < 0 ? -1 : resize(offsets, count * offset_size);
 }
 
+/* 0, or -1 with ValueError set. */
+static int check_range(const Py_buffer *source, Py_ssize_t start, Py_ssize_t end) {
+    if (0 <= start && start <= end && end <= source->len) return 0;
+    PyErr_SetString(PyExc_ValueError, "start and end must lie within the source, in this order");
+    return -1;
+}
+
 PyDoc_STRVAR(read_table_doc,
              "read_table(source, start, end, head, row) -> (head, rows, offsets, offset_size, stopped_at, expected)\n\n"
              "See tree_sitter_m3d.bulk.read_table.");
@@ -57,10 +64,7 @@ static PyObject *read_table(PyObject *module, PyObject *arguments) {
         return NULL;
 
     PyObject *head = NULL, *rows = NULL, *offsets = NULL, *result = NULL;
-    if (start < 0 || start > end || end > source.len) {
-        PyErr_SetString(PyExc_ValueError, "start and end must lie within the source, in this order");
-        goto done;
-    }
+    if (check_range(&source, start, end) < 0) goto done;
     TableReader reader;
     if (!table_reader_init(&reader, source.buf, (size_t)start, (size_t)end, head_layout, row_layout)) {
         PyErr_SetString(PyExc_ValueError, "a layout is made of n and v, and that of a row is not empty");
@@ -104,9 +108,7 @@ static PyObject *only_numbers(PyObject *module, PyObject *arguments) {
     Py_ssize_t start, end;
     if (!PyArg_ParseTuple(arguments, "y*nn:only_numbers", &source, &start, &end)) return NULL;
     PyObject *result = NULL;
-    if (start < 0 || start > end || end > source.len) {
-        PyErr_SetString(PyExc_ValueError, "start and end must lie within the source, in this order");
-    } else {
+    if (check_range(&source, start, end) == 0) {
         const uint8_t *text = source.buf;
         bool only;
         Py_BEGIN_ALLOW_THREADS

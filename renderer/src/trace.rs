@@ -324,7 +324,7 @@ pub fn clearance(point: DVec3, travelled: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::atmosphere::{Atmosphere, Layer};
+    use crate::optics::atmosphere::Atmosphere;
     use crate::scene::{Owner, Part};
     use crate::shape::rectangle::Rectangle;
     use crate::shape::sphere::Sphere;
@@ -411,9 +411,7 @@ mod tests {
             shapes in shapes(), eye in point(250.0), toward in 0.0..std::f64::consts::TAU,
             slope in -0.03..0.03f64, bends in prop::collection::vec(-3e-4..3e-4f64, 8),
         ) {
-            let layers =
-                Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
-            let air = Atmosphere { layers, profile_top: 8.0, segments: 300, distance: 400.0 };
+            let air = Atmosphere::of_bends(&bends, 300, 400.0);
             let mut path = Path::new(&air);
             path.start(eye.z, slope);
             let plane = RadialPlane { origin: eye, radial: DVec2::from_angle(toward) };

@@ -207,6 +207,7 @@ def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_pa
             said += more.decode()
     os.close(terminal)
     assert process.wait() == 130, said
+    assert "Traceback" not in said
     rows = re.search(r"part\.exr holds rows 0 to (\d+); rows from (\d+) on", said)
     assert rows, said
     done = int(rows[2])

@@ -183,6 +183,17 @@ impl Atmosphere {
 }
 
 #[cfg(test)]
+impl Atmosphere {
+    /// A layer for each `half_bend`, one metre high, from 0 upward.
+    pub fn of_bends(bends: &[f64], segments: usize, distance: f64) -> Self {
+        let layers =
+            Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
+        let profile_top = layers.len() as f64;
+        Self { layers, profile_top, segments, distance }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -7,7 +7,7 @@
 
 use super::arc::Arc;
 use super::path::Path;
-use super::tip::Heights;
+use super::tip::HeightRange;
 use crate::shape::Segment;
 use crate::shape::plane::Line;
 use crate::shape::sphere::Circle;
@@ -129,7 +129,7 @@ pub fn meet_line(path: &mut Path, line: &Line, range: &Range) -> Option<Crossing
     let level = line.a == 0.0;
     // A curve that starts on the line leaves it, and may come back.
     let leaves = range.leaves || side(0.0, path.eye_height()).abs() <= range.from;
-    let heights = if level && !leaves { Heights::around(-line.d / line.c) } else { Heights::ALL };
+    let heights = if level && !leaves { HeightRange::around(-line.d / line.c) } else { HeightRange::ALL };
     let mut met = None;
     path.walk(heights, |number, arc| {
         if arc.r0 > range.to {
@@ -405,15 +405,12 @@ fn bisect(value: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::atmosphere::{Atmosphere, Layer};
+    use crate::optics::atmosphere::Atmosphere;
     use glam::DVec2;
     use proptest::prelude::*;
 
     fn air(bends: &[f64]) -> Atmosphere {
-        let layers =
-            Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
-        let profile_top = layers.len() as f64;
-        Atmosphere { layers, profile_top, segments: 500, distance: 2_000.0 }
+        Atmosphere::of_bends(bends, 500, 2_000.0)
     }
 
     /// First distance at which `side` changes sign along the curve, by small steps.

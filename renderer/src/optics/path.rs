@@ -7,7 +7,7 @@ use wide::f32x4;
 use super::arc::Arc;
 use super::atmosphere::Atmosphere;
 use super::sketch::{ArcSketch, Band, Bends};
-use super::tip::{Heights, Tip};
+use super::tip::{HeightRange, Tip};
 
 /// A curve in the making. One value serves many rays: `start` begins anew and keeps the memory.
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ impl<'a> Path<'a> {
     /// Where the curve ends, which has a reason. None of its arcs is kept for that.
     pub fn end_tip(&mut self) -> Tip {
         if self.end_tip.is_none() {
-            self.walk_on(Heights::NONE, |_, _| true);
+            self.walk_on(HeightRange::NONE, |_, _| true);
         }
         self.end_tip.unwrap_or(self.tip)
     }
@@ -99,7 +99,7 @@ impl<'a> Path<'a> {
     /// Length of the curve from the eye to the distance r.
     pub fn length_to(&mut self, r: f64) -> f64 {
         let mut length = 0.0;
-        self.walk(Heights::ALL, |_, arc| {
+        self.walk(HeightRange::ALL, |_, arc| {
             if arc.r0 <= r {
                 length += arc.length_to(arc.r1.min(r));
             }
@@ -111,7 +111,7 @@ impl<'a> Path<'a> {
     /// Shows the arcs, with their numbers, from the first for as long as `visit` wants more, but not all of those that
     /// miss the heights. Those that are not kept yet will not be.
     #[inline]
-    pub fn walk(&mut self, heights: Heights, mut visit: impl FnMut(usize, &Arc) -> bool) {
+    pub fn walk(&mut self, heights: HeightRange, mut visit: impl FnMut(usize, &Arc) -> bool) {
         if self.arcs.iter().enumerate().all(|(number, arc)| visit(number, arc)) {
             self.walk_on(heights, visit);
         }
@@ -119,7 +119,7 @@ impl<'a> Path<'a> {
 
     /// Shows those that are not kept.
     #[inline(always)]
-    fn walk_on(&mut self, heights: Heights, mut visit: impl FnMut(usize, &Arc) -> bool) {
+    fn walk_on(&mut self, heights: HeightRange, mut visit: impl FnMut(usize, &Arc) -> bool) {
         let mut tip = self.tip;
         tip.follow(self.air, heights, |number, arc| visit(number, &arc));
         if tip.end.is_some() {
@@ -130,7 +130,7 @@ impl<'a> Path<'a> {
     /// Keeps one arc more, and those after it for as long as the last one is such.
     fn keep_while(&mut self, such: impl Fn(&Arc) -> bool) {
         let (mut tip, arcs) = (self.tip, &mut self.arcs);
-        tip.follow(self.air, Heights::ALL, |_, arc| {
+        tip.follow(self.air, HeightRange::ALL, |_, arc| {
             arcs.push(arc);
             such(&arc)
         });
@@ -227,16 +227,12 @@ impl<'a> Path<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::atmosphere::Layer;
     use crate::optics::tip::End;
     use proptest::prelude::*;
     use wide::CmpLe;
 
     fn air(bends: &[f64]) -> Atmosphere {
-        let layers =
-            Layer::stack(bends.iter().enumerate().map(|(i, &bend)| (i as f64, i as f64 + 1.0, bend)));
-        let profile_top = layers.len() as f64;
-        Atmosphere { layers, profile_top, segments: 200, distance: 10_000.0 }
+        Atmosphere::of_bends(bends, 200, 10_000.0)
     }
 
     #[test]
@@ -293,7 +289,7 @@ mod tests {
                     path.arc(kept - 1);
                 }
                 let mut seen = Vec::new();
-                path.walk(Heights::ALL, |i, arc| {
+                path.walk(HeightRange::ALL, |i, arc| {
                     seen.push(*arc);
                     seen.len() == i + 1
                 });

@@ -39,12 +39,12 @@ pub struct Tip {
 
 /// The heights at which someone wants to see a curve, both included.
 #[derive(Clone, Copy, Debug)]
-pub struct Heights {
-    pub low: f64,
-    pub high: f64,
+pub struct HeightRange {
+    low: f64,
+    high: f64,
 }
 
-impl Heights {
+impl HeightRange {
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
     pub const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 
@@ -93,7 +93,12 @@ impl Tip {
     /// Follows the curve to its end, or for as long as `visit` wants more. It is shown each arc with its number from 0,
     /// but need not be shown those that miss the heights.
     #[inline(always)] // So that the loops keep the tip in registers.
-    pub fn follow(&mut self, air: &Atmosphere, heights: Heights, mut visit: impl FnMut(usize, Arc) -> bool) {
+    pub fn follow(
+        &mut self,
+        air: &Atmosphere,
+        heights: HeightRange,
+        mut visit: impl FnMut(usize, Arc) -> bool,
+    ) {
         while self.end.is_none() {
             if self.arcs >= air.segments {
                 self.end = Some(End::Segments);
@@ -124,7 +129,7 @@ impl Tip {
     fn pass_layers<const UP: bool>(
         &mut self,
         air: &Atmosphere,
-        heights: Heights,
+        heights: HeightRange,
         visit: &mut impl FnMut(usize, Arc) -> bool,
     ) -> bool {
         let layers = &air.layers[..];
@@ -212,7 +217,7 @@ impl Tip {
     fn step(&mut self, air: &Atmosphere) -> Arc {
         let layer = air.layers[self.layer];
         let (a, m, z) = (layer.half_bend, self.slope, self.z);
-        // Heights are counted toward `ahead`, the boundary the ray points at; `bend` is positive toward it.
+        // HeightRange are counted toward `ahead`, the boundary the ray points at; `bend` is positive toward it.
         let rising = m > 0.0 || (m == 0.0 && a > 0.0);
         let (ahead, gain_ahead, gain_behind, bend, steep) = if rising {
             (layer.top - z, layer.gain_at_top, layer.gain_at_bottom, a, m)

@@ -16,8 +16,8 @@ test("in a workspace that is not trusted, that nothing is rendered", () => {
 });
 
 test("when it is missing, where it was looked for and what to do", () => {
-  const { tooltip, color } = look({ kind: "missing", looked: ["/work/.venv/bin/m3d-lsp"] }, true);
-  expect(tooltip).toContain("/work/.venv/bin/m3d-lsp");
+  const { tooltip, color } = look({ kind: "missing", looked: ["/projects/.venv/bin/m3d-lsp"] }, true);
+  expect(tooltip).toContain("/projects/.venv/bin/m3d-lsp");
   expect(tooltip).toContain("m3d.server.path");
   expect(color).toBe("statusBarItem.warningBackground");
 });

@@ -7,7 +7,7 @@ import { findProgram, findServer, type Surroundings } from "../../src/programs";
 function around(files: string[], changes: Partial<Surroundings> = {}): Surroundings {
   return {
     setting: "",
-    folders: ["/work/scenes"],
+    folders: ["/projects/scenes"],
     trusted: true,
     path: "/usr/local/bin:/usr/bin:relative",
     home: "/home/ann",
@@ -17,7 +17,7 @@ function around(files: string[], changes: Partial<Surroundings> = {}): Surroundi
   };
 }
 
-const VENV = "/work/scenes/.venv/bin/m3d-lsp";
+const VENV = "/projects/scenes/.venv/bin/m3d-lsp";
 const PATH = "/usr/bin/m3d-lsp";
 
 test.each([
@@ -52,10 +52,10 @@ test("a folder of the path that is not absolute would depend on where one stands
 });
 
 test("the other programs are beside the server, else on the path", () => {
-  const files = [VENV, "/work/scenes/.venv/bin/m3dc", "/usr/bin/m3dc", "/usr/bin/m3d-render"];
+  const files = [VENV, "/projects/scenes/.venv/bin/m3dc", "/usr/bin/m3dc", "/usr/bin/m3d-render"];
   const surroundings = around(files);
   const server = findServer(surroundings);
-  expect(findProgram("m3dc", server, surroundings)).toBe("/work/scenes/.venv/bin/m3dc");
+  expect(findProgram("m3dc", server, surroundings)).toBe("/projects/scenes/.venv/bin/m3dc");
   expect(findProgram("m3d-render", server, surroundings)).toBe("/usr/bin/m3d-render");
   expect(findProgram("m3dfmt", server, surroundings)).toBe("m3dfmt");
 });

@@ -14,7 +14,7 @@ NEEDS_NODE := if ! command -v npm > /dev/null; then \
 CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-extension test-workbench lint lint-extension format generate gallery bench vsix
+.PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate gallery bench vsix
 .PHONY: programs tools modules viewer
 
 help: ## Show this list
@@ -39,6 +39,11 @@ test-extension: ## Run the tests of the VS Code extension that need no VS Code
 
 test-workbench: tools vsix ## Drive the extension in a real VS Code; screenshots in out/screenshots/; needs chromium and rg
 	$(EXTENSION)/test/e2e/run.sh $(OUT)
+
+SECONDS ?= 120
+SEED ?= $(shell date +%s)
+fuzz: tools ## Try input that nobody would think of, two minutes a target (TARGETS="text edits" SECONDS=7200 SEED=1)
+	$(BIN)/python -m fuzz $(TARGETS) --seconds $(SECONDS) --seed $(SEED)
 
 lint: tools ## Check style, types and that generated files are current
 	$(BIN)/ruff check

@@ -1,0 +1,32 @@
+"""The fuzz targets: that failures are found and come again by their seeds."""
+
+from __future__ import annotations
+
+import math
+import random
+
+from fuzz import Failure, repeating
+
+
+def make(chance: random.Random) -> bytes:
+    return b"%d" % chance.randrange(10)
+
+
+def check(data: bytes) -> str | None:
+    if data == b"3":
+        raise ValueError("three")
+    return "seven" if data == b"7" else None
+
+
+def test_what_fails_is_found_and_made_again_by_its_seed() -> None:
+    run = repeating(make, check)
+    failures = run(math.inf, 1, cases=60)
+    assert {failure.input for failure in failures} == {b"3", b"7"}
+    for failure in failures:
+        [again] = run(math.inf, failure.seed, cases=1)
+        assert again == failure
+        assert "ValueError: three" in again.what or again == Failure(again.seed, b"7", "seven")
+
+
+def test_it_ends_when_its_time_is_over() -> None:
+    assert repeating(make, check)(0.0, 1) == []

@@ -6,10 +6,12 @@ the lines. It never looks at how far anything was indented, except to see what w
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import accumulate, pairwise
 
-from .format_atoms import COMMENT, Atom, Item, Layers
+from .format_atoms import COMMENT, ROWS, Atom, Item, Layers
+from .format_columns import Cell, Column
 from .format_rows import TAB, Change, Rows, lead_at, moved_comment
 from .ir import Span
 
@@ -17,6 +19,12 @@ WIDTH = 100
 INDENT = 4
 # A key longer than this is not lined up with its neighbours, nor they with it.
 WIDEST_KEY = 32
+# No blank stands before these.
+STICKING = (",", ";")
+# What may differ between lines that are lined up token by token.
+VALUES = ("number", "identifier", ROWS)
+
+_POINT = re.compile(b"[.eE]")
 
 
 class Layout:
@@ -28,7 +36,7 @@ class Layout:
         self._start = start
         self._atoms = atoms = layers.atoms
         # The white space before each atom, and at the end; as it is on one line until decided otherwise.
-        self._before = [b"" if atom.kind in (",", ";") else b" " for atom in atoms]
+        self._before = [b"" if atom.kind in STICKING else b" " for atom in atoms]
         self._before.append(b"\n" if atoms else b"")
         self._number_lines()
         self._measure()
@@ -112,6 +120,7 @@ class Layout:
         elif at < after - 1:
             self._separate(at, after - 1, indent)
         self._line_up(items, shared)
+        self._line_up_blocks(items, indent)
         for item in items:
             self._item(item, indent)
 
@@ -267,6 +276,55 @@ class Layout:
         widest = max((self._widths[item.first] for item in section), default=0)
         for item in section if len(section) > 1 else ():
             self._before[item.first + 1] = b" " * (widest - self._widths[item.first] + 1)
+
+    def _line_up_blocks(self, items: tuple[Item, ...], indent: int) -> None:
+        """The columns of blocks on consecutive lines, one line each, that differ in numbers and names alone."""
+        section: list[list[Cell]] = []
+        columns: list[Column] = []
+        shape: list[str] = []
+        before: Item | None = None
+        for item in items:
+            now = self._shape(item, indent)
+            line = self._cells(item, now)
+            joined = None
+            if now and now == shape and before is not None and self._follows(before, item):
+                joined = [column.joined(cell) for column, cell in zip(columns, line, strict=True)]
+                padding = sum(column.width - cell.width for column, cell in zip(joined, line, strict=True))
+                joined = joined if indent + self._flat_width(item.first, item.last) + padding <= WIDTH else None
+            if joined is None:
+                self._pad_blocks(section, columns)
+                section, joined = [], [Column.of(cell) for cell in line]
+            section.append(line)
+            before, shape, columns = item, now, joined
+        self._pad_blocks(section, columns)
+
+    def _shape(self, item: Item, indent: int) -> list[str]:
+        """The kinds of an item's tokens, with one kind for numbers and names; empty if the item has no columns: where
+        it has no braces or a comment inside, is a table, or is not on one line that begins with it."""
+        if item.open < 0 or item.kind == "table" or not self._starts_line(item.first):
+            return []
+        atoms = self._atoms[item.first : item.last + 1]
+        shape = ["value" if atom.kind in VALUES else atom.kind for atom in atoms]
+        return shape if COMMENT not in shape and self._stays_flat(item, indent) else []
+
+    def _cells(self, item: Item, shape: list[str]) -> list[Cell]:
+        """The values of an item."""
+        found: list[Cell] = []
+        for index, kind in enumerate(shape, item.first):
+            if kind == "value":
+                start, end, kind = self._atoms[index]
+                point = _POINT.search(self._data, start, end) if kind == "number" else None
+                before = 0 if kind != "number" else end - start if point is None else point.start() - start
+                found.append(Cell(index, self._widths[index], before, kind == "number"))
+        return found
+
+    def _pad_blocks(self, section: list[list[Cell]], columns: list[Column]) -> None:
+        for line in section if len(section) > 1 else ():
+            for column, cell in zip(columns, line, strict=True):
+                lead, behind = column.blanks(cell)
+                following = cell.atom + 1 + (self._atoms[cell.atom + 1].kind in STICKING)
+                self._before[cell.atom] += b" " * lead
+                self._before[following] += b" " * behind
 
     def _line_up_comments(self) -> None:
         """Comments that end consecutive lines and were written in one column stay in one."""

@@ -38,6 +38,11 @@ class Given:
             return default
         return value if _is_whole(value, least) else _refuse(name, f"a whole number, {least} or more", value)
 
+    def flag(self, name: str) -> bool:
+        """True or false; false where nothing is given."""
+        value = self._get(name)
+        return value if isinstance(value, bool) else value is not None and _refuse(name, "true or false", value)
+
     def position(self, name: str = "position") -> types.Position | None:
         """A position, or None where none is given."""
         value = self._get(name)

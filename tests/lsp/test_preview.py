@@ -21,6 +21,7 @@ from pygls.exceptions import JsonRpcInvalidParams
 
 import m3d_render
 import m3dc
+from m3d_lsp.preview.requests import filling
 from m3d_render import optics
 from m3d_render.picture import to_bytes
 
@@ -103,6 +104,37 @@ async def test_it_fits_with_its_proportions_kept(editor: Editor) -> None:
     answer = await view.ask("render", maxWidth=90, maxHeight=90)
     assert (answer.width, answer.height) == (90, 45)
     assert view.picture().shape == (45, 90, 3)
+
+
+@pytest.mark.parametrize(
+    ("size", "most", "expected"),
+    [
+        ("WIDTH 40 HEIGHT 20", (200, 200), (200, 100)),  # larger than the scene's own
+        ("WIDTH 320 HEIGHT 200 ASPECT 1.2", (400, 400), (400, 300)),  # 4 : 3 on a screen
+        ("WIDTH 320 HEIGHT 200 ASPECT 1.2", (400, 150), (200, 150)),
+        ("WIDTH 2 HEIGHT 1", (60_000, 60_000), (2828, 1414)),  # 4,000,000 pixels
+    ],
+)
+async def test_a_picture_that_fills_has_the_shape_of_the_view(
+    size: str, most: tuple[int, int], expected: tuple[int, int]
+) -> None:
+    view = m3dc.compile(f"SCENE {{ VIEW {{ {size} }} }}").ir.scene.view
+    assert filling(view, *most) == expected
+
+
+async def test_a_picture_that_fills_shows_balls_round(editor: Editor) -> None:
+    ball = "SOLID { SPHERE { RADIUS 1 } } SCENE { VIEW { FROM < 10, 0, 0 > TO < 0, 0, 0 > FOV 20 WIDTH 40 HEIGHT 30"
+    view = View(editor, editor.open(ball + " ASPECT 1.5 } BACKGROUND < 1, 0, 1 > AMBIENT { INTENSITY 1 } }"), "round")
+    answer = await view.ask("render", maxWidth=300, maxHeight=300, fill=True)
+    assert (answer.width, answer.height, answer.aspect) == (267, 300, 1)
+    assert (answer.ownWidth, answer.ownHeight) == (40, 30)
+    shown = (view.picture() != [255, 0, 255]).any(axis=2)
+    across, down = np.count_nonzero(shown.any(axis=0)), np.count_nonzero(shown.any(axis=1))
+    assert across > 100
+    assert abs(across - down) <= 2
+    # As large as the scene says it is squashed, and the client is told by how much.
+    answer = await view.ask("render")
+    assert (answer.width, answer.height, answer.aspect) == (40, 30, 1.5)
 
 
 async def test_straight_and_bent_pictures_of_one_scene(editor: Editor, examples: Path) -> None:

@@ -19,7 +19,8 @@ class Scene(NamedTuple):
 
 
 class Draw(NamedTuple):
-    """Make a picture of a scene, show it while it becomes known, and keep it. `threads` 0 is all."""
+    """Make a picture of a scene, show it while it becomes known, and keep it. `threads` 0 is all; `square` pixels undo
+    the scene's ASPECT."""
 
     number: int
     scene: int
@@ -28,6 +29,7 @@ class Draw(NamedTuple):
     height: int
     samples: int
     threads: int
+    square: bool
 
 
 class Save(NamedTuple):

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, View
 
 from ..documents import file_name
 from ..given import Given
@@ -45,8 +45,9 @@ async def render(server: Server, params: Any) -> dict[str, Any]:
     name, uri, straight = given.text("preview"), given.uri(), given.one_of("optics", OPTICS) == "straight"
     samples = given.whole("samples", 1, 1)
     most = given.whole("maxWidth", 1, ANY_SIDE), given.whole("maxHeight", 1, ANY_SIDE)
+    fill = given.flag("fill")
     answer = {"status": "cancelled", "version": 0, "stale": False, "width": 0, "height": 0, "seconds": 0.0}
-    answer |= {"bent": False, "message": None}
+    answer |= {"bent": False, "message": None, "aspect": 1.0, "ownWidth": 0, "ownHeight": 0}
     previews = server.previews
     previews.begin(name)
     shown: Shown | None = None
@@ -56,8 +57,10 @@ async def render(server: Server, params: Any) -> dict[str, Any]:
         answer |= {"version": snapshot.version, "stale": good.stale}
         if not snapshot.analysis.ok:
             return answer | {"status": "error", "message": NOT_GOOD}
-        width, height = fit(ir.scene.view.width, ir.scene.view.height, *most)
-        answer |= {"width": width, "height": height}
+        view = ir.scene.view
+        width, height = filling(view, *most) if fill else fit(view.width, view.height, *most)
+        answer |= {"width": width, "height": height, "aspect": 1.0 if fill else view.aspect}
+        answer |= {"ownWidth": view.width, "ownHeight": view.height}
 
         def hears(message: Tile | Progress) -> None:
             if isinstance(message, Tile):
@@ -69,7 +72,7 @@ async def render(server: Server, params: Any) -> dict[str, Any]:
         def make(new_number: int, new_scene: int) -> Draw:
             nonlocal number, scene
             number, scene = new_number, new_scene
-            return Draw(number, scene, straight, width, height, samples, threads)
+            return Draw(number, scene, straight, width, height, samples, threads, square=fill)
 
         ended = await previews.work(snapshot.analysis, make, hears)
         if ended.status == "done":
@@ -85,6 +88,13 @@ def fit(width: int, height: int, most_width: int, most_height: int) -> tuple[int
     """The size of a picture made smaller to fit, with its proportions kept."""
     share = min(1.0, most_width / width, most_height / height, math.sqrt(MOST_PIXELS / (width * height)))
     return max(1, round(width * share)), max(1, round(height * share))
+
+
+def filling(view: View, most_width: int, most_height: int) -> tuple[int, int]:
+    """The size of a picture with square pixels that is as large as fits, be it larger than the scene's own."""
+    shape = view.height * view.aspect / view.width
+    width = min(most_width, most_height / shape, math.sqrt(MOST_PIXELS / shape))
+    return max(1, round(width)), max(1, round(width * shape))
 
 
 def _tile(name: str, version: int, width: int, height: int, tile: Tile) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from functools import cached_property
 from io import BufferedIOBase
 from pathlib import Path
 from threading import Lock, Thread
@@ -61,6 +62,15 @@ class Unprepared:
     def __init__(self, ir: SceneIR) -> None:
         self._ir = ir
         self._prepared: Prepared | None = None
+
+    @cached_property
+    def square(self) -> Unprepared:
+        """The same scene seen with square pixels: its ASPECT is undone."""
+        view = self._ir.scene.view
+        if view.aspect == 1:
+            return self
+        scene = self._ir.scene._replace(view=view._replace(aspect=1.0))
+        return Unprepared(SceneIR(scene, self._ir.tables, self._ir.source))
 
     def prepared(self, wanted: Callable[[], bool]) -> Prepared | None:
         """The scene in the kernel; None if it is not wanted any more. Raises SceneError."""
@@ -115,6 +125,8 @@ class Worker:
     def _start(self, job: Draw | Save) -> None:
         tiles = self._tiles[job.number] = Tiles(job.number, self._channel.send)
         scene = self._scenes.get(job.scene)
+        if scene is not None and isinstance(job, Draw) and job.square:
+            scene = scene.square
         thread = Thread(target=self._work, args=(job, scene, tiles), daemon=True)
         self._threads = [other for other in self._threads if other.is_alive()] + [thread]
         thread.start()

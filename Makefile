@@ -69,13 +69,13 @@ viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
 generate: tools ## Write everything that is made of grammar/language.toml
 	cd grammar && ../$(BIN)/python -m generate
 	cargo run --quiet --release --manifest-path grammar/parser-generator/Cargo.toml
-	$(BIN)/python docs/m3ir.py
-	$(BIN)/python docs/diagnostics.py
+	$(BIN)/python -m tools.m3ir_page
+	$(BIN)/python -m tools.diagnostics_page
 
 gallery: tools ## Render the pictures of the documentation anew
-	$(BIN)/python docs/gallery.py
-	$(BIN)/python docs/texture_pictures.py
-	$(BIN)/python docs/mirages.py
+	$(BIN)/python -m tools.gallery
+	$(BIN)/python -m tools.texture_pictures
+	$(BIN)/python -m tools.mirages_page
 
 bench: tools ## Measure speed and memory, beside POV-Ray where it is installed
 	$(BIN)/python -m bench

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
-import OpenImageIO
 import pytest
-from doc_script import load
+from pictures import assert_current, in_steps, stored
 
-# Another processor's exp or cos may round another way: a step of 8 bits anywhere, and an edge here and there.
-STEPS = 2
+from tools import gallery
+
 EDGE_PIXELS = 0.002
 
 
-GALLERY = load("gallery")
-
-
-@pytest.mark.parametrize("what", GALLERY.PICTURES, ids=lambda what: what.name)
-def test_picture_is_current(what) -> None:
-    stored = OpenImageIO.ImageBuf(str(GALLERY.IMAGES / f"{what.name}.png")).get_pixels(OpenImageIO.UINT8)
-    fresh = np.rint(GALLERY.render(what) * 255).astype(int)
-    assert fresh.shape == stored.shape
-    differs = np.abs(fresh - stored).max(axis=-1) > STEPS
-    assert differs.mean() <= EDGE_PIXELS, f"{differs.sum()} pixels differ; look at them, then `make gallery`"
+@pytest.mark.parametrize("what", gallery.PICTURES, ids=lambda what: what.name)
+def test_picture_is_current(what: gallery.Picture) -> None:
+    kept = stored(gallery.IMAGES / f"{what.name}.png")
+    assert_current(in_steps(gallery.render(what)), kept, EDGE_PIXELS, what.name)

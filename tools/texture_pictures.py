@@ -60,7 +60,7 @@ SOLID {{ SPHERE {{ CENTER < 0, 0, 2 > RADIUS 2 }} SURFACE skin }}
 INTRODUCTION = """\
 # Textures
 
-<!-- Made by docs/texture_pictures.py: `make gallery` -->
+<!-- Made by tools/texture_pictures.py: `make gallery` -->
 
 ![all textures](images/textures/all.png)
 

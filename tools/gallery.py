@@ -1,6 +1,6 @@
 """Renders the pictures of the documentation: `make gallery`.
 
-They are also what tests/renderer/test_gallery.py compares with: a picture that changes is looked at before it is
+They are also what tests/test_gallery.py compares with: a picture that changes is looked at before it is
 committed.
 """
 

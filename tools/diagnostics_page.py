@@ -6,7 +6,7 @@ from pathlib import Path
 
 from m3dc.catalogue import CATALOGUE
 
-PAGE = Path(__file__).with_suffix(".md")
+PAGE = Path(__file__).parent.parent / "docs/diagnostics.md"
 
 INTRODUCTION = """\
 # Diagnostics

@@ -10,7 +10,7 @@ from typing import NamedTuple, get_args
 from m3dc import ir
 from m3dc.m3ir import VERSION
 
-PAGE = Path(__file__).with_suffix(".md")
+PAGE = Path(__file__).parent.parent / "docs/m3ir.md"
 
 INTRODUCTION = f"""\
 # The .m3ir file

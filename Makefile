@@ -14,7 +14,7 @@ NEEDS_NODE := if ! command -v npm > /dev/null; then \
 CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate gallery bench vsix
+.PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
 .PHONY: programs tools modules viewer
 
 help: ## Show this list
@@ -66,11 +66,15 @@ format: tools ## Lay out the Python and Rust code
 viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
 	@$(UV) sync --quiet --inexact --group view
 
-generate: tools ## Write everything that is made of grammar/language.toml
+generate: tools ## Write everything that is made of something else: of grammar/language.toml, the IR, the version
+	$(BIN)/python -m tools.version
 	cd grammar && ../$(BIN)/python -m generate
 	cargo run --quiet --release --manifest-path grammar/parser-generator/Cargo.toml
 	$(BIN)/python -m tools.m3ir_page
 	$(BIN)/python -m tools.diagnostics_page
+
+pins: tools ## Write the newest allowed version of every Python package into pyproject.toml
+	$(BIN)/python -m tools.pins
 
 gallery: tools ## Render the pictures of the documentation anew
 	$(BIN)/python -m tools.gallery

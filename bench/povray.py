@@ -16,6 +16,7 @@ import shutil
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,6 +169,8 @@ def _primitive(ir: SceneIR, row: int) -> Iterator[str]:
             yield f"polygon {{ {len(corners)}, {', '.join(map(_vector, corners))}"
         case PrimitiveKind.POLYGONS | PrimitiveKind.TERRAIN:
             yield from _mesh(ir, shape)
+        case _:
+            assert_never(kind)
     yield from _surface(ir, int(primitives["solid"][row]), kind, shape)
     yield "}"
 

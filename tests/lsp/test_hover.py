@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 from editor import Editor, Scene
 from lsprotocol import types
+from primitives import ENDLESS, scene
+
+from m3dc.ir import PrimitiveKind
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
@@ -33,6 +36,12 @@ async def test_a_statement(editor: Editor) -> None:
         "RADIUS radius", "The radius.", "scene units", "Default: `1`", "more than 0", "SPHERE { CENTER",
         "primitives.md#sphere", "thesis 7.5.5.3",
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", PrimitiveKind, ids=lambda kind: kind.name)
+async def test_every_primitive(editor: Editor, kind: PrimitiveKind) -> None:
+    said = await check(editor, scene(kind).replace(kind.name, f"$[{kind.name}$]"), "In the scene:")
+    assert ("- extents x" in said) == (kind not in ENDLESS)
 
 
 async def test_a_keyword_means_what_it_does_in_its_block(editor: Editor) -> None:

@@ -13,11 +13,12 @@ from exit_status import exit_status
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 
 import m3dc
+from m3d_render.geometry import sphere
 from m3d_render.optics import trace_paths
 from m3d_render.rendering import SceneError
 from m3d_render.sight import view_angles
 from m3d_render.view.axes import axes
-from m3d_render.view.bodies import flat_bodies, primitive_colors, smooth_bodies, sphere_sides
+from m3d_render.view.bodies import bodies, primitive_colors
 from m3d_render.view.cli import main
 from m3d_render.view.description import describe
 from m3d_render.view.fan import fan
@@ -42,7 +43,7 @@ def compiled(text):
 
 
 def area(mesh, primitive):
-    a, b, c = np.moveaxis(mesh.points[mesh.triangles[mesh.primitives == primitive]], 1, 0)
+    a, b, c = np.moveaxis(mesh.points[mesh.corners[mesh.primitives == primitive]], 1, 0)
     return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
 
 
@@ -50,7 +51,7 @@ def area(mesh, primitive):
 
 
 def test_flat_things_are_the_triangles_of_the_scene():
-    mesh = flat_bodies(
+    mesh, _ = bodies(
         compiled(
             "SOLID { TRIANGLE { VERTEX1 <0,0,2> VERTEX2 <0,0,0> VERTEX3 <3,0,0> } SPHERE { } }"
             "SOLID { RECTANGLE { VERTEX1 <0,0,2> VERTEX2 <0,0,0> VERTEX3 <5,0,0> } }"
@@ -61,16 +62,16 @@ def test_flat_things_are_the_triangles_of_the_scene():
     assert mesh.primitives.tolist() == [0, 2, 2, 3, 3, 4, 4, 4, 4]
     assert [area(mesh, primitive) for primitive in (0, 2, 3, 4)] == pytest.approx([3, 10, 1, 2])
     assert mesh.normals is None
-    np.testing.assert_allclose(mesh.points[mesh.triangles[0]], [[0, 0, 2], [0, 0, 0], [3, 0, 0]])
+    np.testing.assert_allclose(mesh.points[mesh.corners[0]], [[0, 0, 2], [0, 0, 0], [3, 0, 0]])
 
 
 def test_a_sphere_lies_on_its_sphere_and_its_triangles_face_outward():
-    mesh = smooth_bodies(compiled("SOLID { SPHERE { CENTER <1,2,3> RADIUS 4 } }"))
+    _, mesh = bodies(compiled("SOLID { SPHERE { CENTER <1,2,3> RADIUS 4 } }"))
     outward = (mesh.points - (1, 2, 3)) / 4
     np.testing.assert_allclose(np.linalg.norm(outward, axis=1), 1)
     np.testing.assert_allclose(mesh.normals, outward, atol=1e-12)
     assert area(mesh, 0) == pytest.approx(4 * math.pi * 16, rel=0.01)
-    a, b, c = np.moveaxis(outward[mesh.triangles], 1, 0)
+    a, b, c = np.moveaxis(outward[mesh.corners], 1, 0)
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) > 0).all()
 
 
@@ -80,11 +81,11 @@ def test_normals_of_a_phong_mesh_are_the_scenes():
     scene.mesh([(9, 9, 9)], [], scene.solid())
     scene.mesh(corners, [(0, 1, 2), (2, 1, 3)], scene.solid(), normals=normals)
     ir = scene.build()
-    mesh = smooth_bodies(ir)
-    np.testing.assert_allclose(mesh.points[mesh.triangles[1]], [corners[i] for i in (2, 1, 3)])
-    np.testing.assert_allclose(mesh.normals[mesh.triangles[1]], [normals[i] for i in (2, 1, 3)])
+    flat, mesh = bodies(ir)
+    np.testing.assert_allclose(mesh.points[mesh.corners[1]], [corners[i] for i in (2, 1, 3)])
+    np.testing.assert_allclose(mesh.normals[mesh.corners[1]], [normals[i] for i in (2, 1, 3)])
     assert mesh.primitives.tolist() == [1, 1]
-    assert not len(flat_bodies(ir).triangles)
+    assert not len(flat.corners)
 
 
 def test_colors_are_those_of_surfaces_and_lights():
@@ -96,15 +97,14 @@ def test_colors_are_those_of_surfaces_and_lights():
 
 
 def test_many_spheres_are_coarser(merman):
-    assert [sphere_sides(count) for count in (0, 1, 800, 5_000, 10**7)] == [48, 48, 48, 20, 8]
+    assert [sphere.sides(count) for count in (0, 1, 800, 5_000, 10**7)] == [48, 48, 48, 20, 8]
     # Two triangles a side and parallel, but for the poles.
-    assert len(smooth_bodies(merman).triangles) == 4 * 48 * 2 * 23
+    assert len(bodies(merman)[1].corners) == 4 * 48 * 2 * 23
 
 
 def test_an_empty_scene_has_no_bodies():
     ir = compiled("SCENE { }")
-    assert not len(flat_bodies(ir).triangles)
-    assert not len(smooth_bodies(ir).triangles)
+    assert not any(len(mesh.corners) for mesh in bodies(ir))
     assert not len(ground(ir).lines)
 
 
@@ -398,7 +398,7 @@ def test_without_pyvista_it_says_how_to_get_it(scene, monkeypatch, capsys):
 def test_meshes_hold_every_primitive_but_planes(examples):
     for path in sorted(examples.glob("*.m3d")):
         ir = m3dc.compile(path.read_bytes()).ir
-        shown = [flat_bodies(ir), smooth_bodies(ir), ground(ir).patches]
+        shown = [*bodies(ir), ground(ir).patches]
         primitives = np.unique(np.concatenate([mesh.primitives for mesh in shown]))
         np.testing.assert_array_equal(primitives, np.arange(len(ir["primitives"]["kind"])), path.name)
         planes = ir["primitives"]["kind"] == PrimitiveKind.PLANE

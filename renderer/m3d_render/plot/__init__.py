@@ -13,11 +13,11 @@ What each figure shows is worked out by one function and drawn by another. Only 
 with `m3d-render[plot]`.
 """
 
+from m3d_render.geometry import ViewPlane
 from m3d_render.plot.profile import TemperatureProfile, draw_profile, temperature_profile
 from m3d_render.plot.rays import RayFan, draw_fan, ray_fan
 from m3d_render.plot.section import Cut, section
 from m3d_render.plot.transfer import Transfer, Zone, draw_transfer, transfer_characteristic
-from m3d_render.plot.view_plane import ViewPlane
 from m3d_render.sight import things_distance, view_angles
 
 __all__ = [

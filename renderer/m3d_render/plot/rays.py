@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.geometry import ViewPlane
 from m3d_render.optics import air_layers, trace_paths
 from m3d_render.plot.section import Cut, section
-from m3d_render.plot.view_plane import ViewPlane
 from m3d_render.sight import things_distance, view_angles
-from m3dc.ir import PrimitiveKind, SceneIR
+from m3dc.ir import SceneIR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -171,7 +171,7 @@ def draw_fan(fan: RayFan, axes: Axes, heights: tuple[float, float] | None = None
     label = "solids in section"
     for cut in fan.cuts:
         if len(cut.segments):
-            _draw_cut(cut.kind, cut.segments / (metres, 1), axes, label)
+            _draw_cut(cut, metres, axes, label)
             label = ""
     if len(fan.crossings):
         axes.plot(
@@ -188,8 +188,9 @@ def draw_fan(fan: RayFan, axes: Axes, heights: tuple[float, float] | None = None
     axes.set(xlabel=f"distance, {unit}", ylabel="height, m", xlim=(0, reach), ylim=(low, high))
 
 
-def _draw_cut(kind: PrimitiveKind, points: NDArray[np.float64], axes: Axes, label: str) -> None:
-    if kind is PrimitiveKind.SPHERE:
+def _draw_cut(cut: Cut, metres: float, axes: Axes, label: str) -> None:
+    points = cut.segments / (metres, 1)
+    if cut.filled:
         axes.fill(
             points[:, 0, 0], points[:, 0, 1], facecolor="0.6", edgecolor="k", linewidth=1.2, zorder=3, label=label
         )

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.geometry import ViewPlane
 from m3d_render.optics import trace_paths
-from m3d_render.plot.view_plane import ViewPlane
 from m3d_render.sight import things_distance, view_angles
 from m3dc.ir import SceneIR
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render.view.bodies import Mesh
+from m3d_render.geometry import Triangles
 from m3dc.ir import PrimitiveKind, SceneIR
 
 Points = NDArray[np.float64]
@@ -20,7 +20,7 @@ _LINES = 20  # about so many along the longer side
 class Ground(NamedTuple):
     """`patches`, two triangles a plane, and their grid lines, `lines` (n, 2, 3) `step` scene units apart."""
 
-    patches: Mesh
+    patches: Triangles
     lines: Points
     step: float
 
@@ -39,7 +39,7 @@ def ground(ir: SceneIR) -> Ground:
     corners = [patch for patch, _ in made]
     lines = [grid for _, grid in made]
     triangles = 4 * np.arange(len(made))[:, None, None] + np.array([[0, 1, 2], [0, 2, 3]])
-    mesh = Mesh(
+    mesh = Triangles(
         np.concatenate([np.zeros((0, 3)), *corners]),
         triangles.reshape(-1, 3),
         np.repeat(primitives.astype(np.int64), 2),

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.geometry import Triangles
 from m3d_render.rendering import SceneError
 from m3d_render.view.axes import axes
-from m3d_render.view.bodies import Mesh, flat_bodies, primitive_colors, smooth_bodies
+from m3d_render.view.bodies import bodies, primitive_colors
 from m3d_render.view.description import describe
 from m3d_render.view.fan import fan
 from m3d_render.view.ground import ground
@@ -72,7 +73,7 @@ class Stage:
         self._actors: dict[str, list[Any]] = {}
         self._labels: dict[str, tuple[Points, list[str]]] = {}
         self._written: dict[str, Any] = {}
-        self._solids: list[tuple[Any, Mesh]] = []
+        self._solids: list[tuple[Any, Triangles]] = []
         self._looked: tuple[From, Any] | None = None
 
     # --- what is shown -----------------------------------------------------------------------------------------------
@@ -191,7 +192,7 @@ class Stage:
         found = picker.GetActor()
         mesh = next(mesh for actor, mesh in self._solids if actor is found)
         primitive = int(mesh.primitives[picker.GetCellId()])
-        corners = mesh.points[mesh.triangles[mesh.primitives == primitive]].reshape(-1, 3)
+        corners = mesh.points[mesh.corners[mesh.primitives == primitive]].reshape(-1, 3)
         self._add_lines("picked", box(corners.min(axis=0), corners.max(axis=0)), _PICKED, width=2.5)
         self._stretch_actors("picked")
         return primitive
@@ -205,12 +206,12 @@ class Stage:
 
     def _add_solids(self, opened: Opened) -> None:
         colors = _bytes(primitive_colors(opened.ir))
-        for mesh in (flat_bodies(opened.ir), smooth_bodies(opened.ir)):
+        for mesh in bodies(opened.ir):
             self._add_mesh("solids", mesh, colors)
 
     def _add_ground(self, opened: Opened) -> None:
         made = ground(opened.ir)
-        if not len(made.patches.triangles):
+        if not len(made.patches.corners):
             return
         colors = primitive_colors(opened.ir)
         self._add_mesh("ground", made.patches, _bytes(colors))
@@ -274,10 +275,10 @@ class Stage:
         assert actor is not None
         self._actors["rays"].append(self.plotter.scalar_bars[title])
 
-    def _add_mesh(self, layer: str, mesh: Mesh, colors: NDArray[np.uint8]) -> None:
-        if not len(mesh.triangles):
+    def _add_mesh(self, layer: str, mesh: Triangles, colors: NDArray[np.uint8]) -> None:
+        if not len(mesh.corners):
             return
-        data = self._pyvista.PolyData.from_regular_faces(mesh.points, mesh.triangles)
+        data = self._pyvista.PolyData.from_regular_faces(mesh.points, mesh.corners)
         data.cell_data["color"] = colors[mesh.primitives]
         if mesh.normals is not None:
             data.point_data.active_normals = mesh.normals

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render.plot.view_plane import ViewPlane
+from m3d_render.geometry import ViewPlane
 from m3d_render.sight import things_distance
 from m3d_render.view.ground import places_of_interest
 from m3dc.ir import SceneIR

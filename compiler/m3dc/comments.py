@@ -64,6 +64,14 @@ class Comments:
         titles = (_title(self._data[start:end].decode("utf-8", "replace")) for start, end in candidates)
         return next((title for title in titles if title), None)
 
+    def behind(self, end: int, separators: bytes = b"") -> Span | None:
+        """The comment that follows something on its line, perhaps behind a separator."""
+        index = bisect_left(self._starts, end)
+        if index == len(self.spans):
+            return None
+        between = self._data[end : self.spans[index][0]]
+        return None if between.strip(b" \t" + separators) else self.spans[index]
+
     def _after(self, end: int) -> Span | None:
         index = bisect_left(self._starts, end)
         if index == len(self.spans):
@@ -79,11 +87,17 @@ def _spans(data: bytes) -> list[Span]:
     return [(begin, len(data) if end is None else end) for begin, end in outermost(data, long_tables.outside(data))]
 
 
-def _title(comment: str) -> str | None:
-    """The first sentence of a comment, without what frames it; None of a directive."""
+def text_of(comment: str) -> list[str]:
+    """The lines of a comment without what frames it, none of them empty; none of a directive."""
     if _DIRECTIVE.search(comment):
+        return []
+    return [line for line in (_FRAME.sub("", line) for line in comment.splitlines()) if line]
+
+
+def _title(comment: str) -> str | None:
+    """The first sentence of a comment; None of a directive."""
+    line = next(iter(text_of(comment)), "")
+    if not line:
         return None
-    lines = (_FRAME.sub("", line) for line in comment.splitlines())
-    line = next((line for line in lines if line), "")
     text = " ".join(_SENTENCE_END.split(line, maxsplit=1)[0].split()).rstrip(".:;")
     return text if len(text) <= LONGEST_TITLE else text[: LONGEST_TITLE - 1].rstrip() + "…"

@@ -12,6 +12,8 @@ _IMAGE = re.compile(r"!\[([^]]*)\]\([^)]*\) ?")
 _LINK = re.compile(r"\[([^]]*)\]\([^)]*\)")
 _MARKS = re.compile(r"\*\*|`|(?<!\w)\*(?=\S)|(?<=\S)\*(?!\w)")
 _FENCE = re.compile(r"^```.*\n?", re.MULTILINE)
+_SPECIAL = re.compile(r"([\\`*_\[\]<>#|~])")
+_ESCAPED = re.compile(r"\\([\\`*_\[\]<>#|~])")
 _RULE = re.compile(r"^\|[-| :]*\|\n", re.MULTILINE)
 
 
@@ -25,7 +27,14 @@ def plain(text: str) -> str:
     """The text of our Markdown: fences, rules, links and emphasis left out."""
     text = _RULE.sub("", _FENCE.sub("", text))
     text = _LINK.sub(r"\1", _IMAGE.sub("", text))
-    return _MARKS.sub("", text).strip()
+    pieces = _ESCAPED.split(text)
+    pieces[::2] = [_MARKS.sub("", piece) for piece in pieces[::2]]
+    return "".join(pieces).strip()
+
+
+def escaped(text: str) -> str:
+    """Text of the user as it is, none of it taken for Markdown."""
+    return _SPECIAL.sub(r"\\\1", text)
 
 
 def fenced(code: str) -> str:

@@ -118,6 +118,16 @@ async def test_a_taken_proposal_is_a_sentence(editor: Editor) -> None:
                 assert first_error(filled_in(item, scene)) is None, item.label
 
 
+async def test_a_variable_shows_what_comments_say_of_it(editor: Editor) -> None:
+    text = "VARIABLES { NUMBER size; /* in metres */ NUMBER far; }\nfar = 2 /* away */\nSOLID { SPHERE { RADIUS $0 } }"
+    items = {item.label: item for item in await complete(editor, editor.open(text))}
+    said = {name: items[name].documentation for name in ("size", "far")}
+    assert {name: each.value for name, each in said.items() if isinstance(each, types.MarkupContent)} == {
+        "size": "in metres",
+        "far": "away",
+    }
+
+
 async def test_a_proposal_says_what_it_is(editor: Editor) -> None:
     items = {
         item.label: item for item in await complete(editor, editor.open(HEAD + "SOLID { SPHERE { $0 RADIUS sand } }"))

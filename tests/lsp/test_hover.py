@@ -67,6 +67,53 @@ async def test_a_variable_is_what_it_is_there(editor: Editor) -> None:
     await check(editor, "SOLID $[house$]\n", "not declared")
 
 
+REMARKS = """\
+VARIABLES
+{
+    NUMBER size; /* radius of the ball, in *metres*, say */
+    VECTOR sand, /* light
+                    brown */
+           grass;
+    /* How high, and how far. */
+    NUMBER high, far;
+    NUMBER one, two; /* a pair */ NUMBER /* not its */ three; NUMBER four /* its own */, five;
+    NUMBER six; /* m3d: allow M3D0503 */
+}
+/* From the map. */
+high = 2 /* metres */
+far = 1
+far = 2
+SOLID { SPHERE { RADIUS size CENTER < high, far, 0 > } SPHERE { CENTER sand } SPHERE { CENTER grass }
+  SPHERE { CENTER < one, two, three > } SPHERE { CENTER < four, five, six > } }
+"""
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ("RADIUS $0size", ["radius of the ball, in \\*metres\\*, say"]),
+        ("NUMBER $0size", ["radius of the ball, in \\*metres\\*, say"]),
+        ("CENTER $0sand", ["light brown"]),
+        ("CENTER $0grass", []),
+        ("< $0high", ["How high, and how far.", "From the map.", "metres"]),
+        ("$0high = 2", ["How high, and how far.", "From the map.", "metres"]),
+        ("high, $0far, 0", ["How high, and how far."]),
+        ("< $0one", ["a pair"]),
+        ("one, $0two, three >", ["a pair"]),
+        ("two, $0three >", []),
+        ("< $0four", ["its own"]),
+        ("four, $0five, six", []),
+        ("five, $0six", []),
+    ],
+)
+async def test_what_comments_say_of_a_variable(editor: Editor, place: str, said: list[str]) -> None:
+    found = await hover(editor, editor.open(REMARKS.replace(place.replace("$0", ""), place)))
+    assert found is not None
+    assert isinstance(found.contents, types.MarkupContent)
+    parts = found.contents.value.split("\n\n")
+    assert [part for part in parts[1:-1] if not part.startswith("Colour")] == said
+
+
 async def test_a_structure_shows_what_was_said_of_it(editor: Editor) -> None:
     text = "VARIABLES { SURFACE s; }\ns = { COLOR < 1, 0.5, 0 > SPECULAR 0.25 }\nSOLID { SPHERE { } SURFACE $[s$] }\n"
     await check(editor, text, "SURFACE s = { COLOR < 1, 0.5, 0 > SPECULAR 0.25 }", "`#ff8000`")

@@ -20,8 +20,9 @@ from tree_sitter_m3d.phrases import written
 from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement
 
 from .. import cursor, explain, snippets
+from ..comments import about_variable
 from ..cursor import Cursor
-from ..markdown import fenced, markup, shown
+from ..markdown import escaped, fenced, markup, shown
 from ..names import names
 from ..registry import request
 from ..snapshot import Snapshot
@@ -163,9 +164,13 @@ def _variables(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionIt
         if declaration.span[0] > start or (wanted and declaration.type != wanted) or name == target:
             continue
         value = known.value(name, start)
+        last = known.last_assignment(name, start)
+        said = about_variable(snapshot.analysis, name, last.span if last is not None else None)
+        text = "\n\n".join(escaped(remark) for remark in said)
         item = types.CompletionItem(
             name,
             kind=_variable_kind(value),
+            documentation=markup(text, markdown=snapshot.client.completion_markdown) if said else None,
             detail=declaration.type if value is None else f"{declaration.type} = {value_text(value)}",
             sort_text=FIRST + name,
         )

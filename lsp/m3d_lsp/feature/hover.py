@@ -2,7 +2,7 @@
 
 - a keyword: what it does, its arguments with units, default and range, an example; for a block also what it resolves
   to, its matrix, place and extents; for a transformation the matrix up to there
-- a variable: its type, what it is worth there, where it is declared and assigned to
+- a variable: its type, what it is worth there, what comments say of it, where it is declared and assigned to
 - a number: which argument it is, its unit and others; a vector: where the point is in the scene, or the colour
 - a row of a table: which vertex, facet or colour range; of a PROFILE what the air does to light
 """
@@ -20,7 +20,8 @@ from tree_sitter_m3d.table import LANGUAGE, Statement, Table
 
 from .. import arguments, cursor, explain, resolved, rows
 from ..colours import KIND, color_variables
-from ..markdown import fenced, markup, shown
+from ..comments import about_variable
+from ..markdown import escaped, fenced, markup, shown
 from ..names import Role, names
 from ..registry import request
 from ..snapshot import Snapshot
@@ -89,6 +90,11 @@ def _name(snapshot: Snapshot, leaf: Node) -> str:
     value = known.value(name, leaf.start_byte)
     head = f"{declaration.type} {name}"
     parts = [fenced(head if value is None else f"{head} = {value_text(value)}")]
+    at = known.at(leaf.start_byte)
+    last = known.last_assignment(name, leaf.start_byte)
+    assignment = at if at is not None and at.role is Role.ASSIGNMENT else last
+    said = about_variable(snapshot.analysis, name, assignment.span if assignment is not None else None)
+    parts += [escaped(text) for text in said]
     color = _color_of(snapshot, name, value)
     if color is not None:
         parts.append(f"Colour {shown(color, images=snapshot.client.images)}")
@@ -98,7 +104,6 @@ def _name(snapshot: Snapshot, leaf: Node) -> str:
     uses = sum(o.role is Role.USE for o in known.of(name))
     facts = [f"declared in {_line(snapshot, declaration.span[0])}"]
     if assigned:
-        last = known.last_assignment(name, leaf.start_byte)
         places = ", ".join(
             f"**{_line(snapshot, o.span[0])}**" if o == last and len(assigned) > 1 else _line(snapshot, o.span[0])
             for o in assigned[:5]

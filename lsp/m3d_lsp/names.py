@@ -1,18 +1,28 @@
-"""The variables of a document: where each is declared, assigned to and used, and what it is worth."""
+"""The variables of a document: where each is declared, assigned to and used, and what it is worth.
+
+Where the text is broken, its tokens tell where a name stands: every name of the language is that of a variable.
+"""
 
 from __future__ import annotations
 
 import math
+import re
+from bisect import bisect_left
 from collections.abc import Iterator
 from enum import Enum
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
-from m3dc import ast, program
+from m3dc import ast, long_tables, program
 from m3dc.analysis import Analysis
 from m3dc.values import Value, Vector
+from tree_sitter_m3d.table import LANGUAGE
 
+from .comments import comments
 from .text import Span
+
+# A numeral, or a name with what makes it the target of an assignment.
+_TOKEN = re.compile(rb"[+-]?\.?[0-9](?:[eE][+-]|[A-Za-z0-9_.])*|([A-Za-z][A-Za-z0-9_]*)(\s*=)?")
 
 
 class Role(Enum):
@@ -49,18 +59,26 @@ class Names:
     def __init__(self, analysis: Analysis) -> None:
         self._analysis = analysis
         self.occurrences: list[Occurrence] = []
-        self._by_name: dict[str, list[Occurrence]] = {}
         for top in analysis.items:
             for occurrence in _names_of(top.item):
                 placed = occurrence._replace(span=top.place(occurrence.span))
                 if occurrence.type_span is not None:
                     placed = placed._replace(type_span=top.place(occurrence.type_span))
                 self.occurrences.append(placed)
-                self._by_name.setdefault(occurrence.name, []).append(placed)
+        if analysis.tree.root_node.has_error or not analysis.items:
+            known = {occurrence.span for occurrence in self.occurrences}
+            known |= {o.type_span for o in self.occurrences if o.type_span is not None}
+            self.occurrences += (o for o in _tokens(analysis) if o.span not in known)
+            self.occurrences.sort(key=lambda occurrence: occurrence.span)
+        self._by_name: dict[str, list[Occurrence]] = {}
+        for occurrence in self.occurrences:
+            self._by_name.setdefault(occurrence.name, []).append(occurrence)
 
     def at(self, offset: int) -> Occurrence | None:
         """The name that a byte belongs to, or that ends before it."""
-        return next((o for o in self.occurrences if o.span[0] <= offset <= o.span[1]), None)
+        index = bisect_left(self.occurrences, offset, key=lambda occurrence: occurrence.span[1])
+        found = self.occurrences[index] if index < len(self.occurrences) else None
+        return found if found is not None and found.span[0] <= offset else None
 
     def of(self, name: str) -> list[Occurrence]:
         """Every occurrence of a name."""
@@ -122,6 +140,19 @@ class Names:
 def names(analysis: Analysis) -> Names:
     """The names of an analysed document."""
     return Names(analysis)
+
+
+def _tokens(analysis: Analysis) -> Iterator[Occurrence]:
+    """The names in a text, whatever stands about them."""
+    data = analysis.source.data
+    remarks = comments(analysis)
+    for start, end in long_tables.outside(data):
+        for match in _TOKEN.finditer(data, start, end):
+            if match[1] is None or remarks.at(match.start()) is not None:
+                continue
+            name = match[1].decode("ascii")
+            if name not in LANGUAGE.keywords:
+                yield Occurrence(name, match.span(1), Role.ASSIGNMENT if match[2] else Role.USE)
 
 
 def _names_of(item: ast.Item) -> Iterator[Occurrence]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Awaitable, Callable, Sequence
 
 import pytest
@@ -59,8 +60,8 @@ DECLARED = "VARIABLES { NUMBER [size], far; SPHERE ball; }"
 @pytest.mark.parametrize(
     ("ask", "place", "expected"),
     [
-        (definition, "RADIUS si$0ze }", ["[size] = 2", DECLARED]),
-        (definition, "far = size$0\n", ["[size] = 2", DECLARED]),
+        (definition, "RADIUS si$0ze }", ["[size] = 2"]),
+        (definition, "far = size$0\n", ["[size] = 2"]),
         (definition, "$0size = 3", [DECLARED]),
         (definition, "NUMBER $0size", [DECLARED]),
         (definition, "RAD$0IUS size }", []),
@@ -109,3 +110,92 @@ async def test_highlights_tell_reading_from_writing(editor: Editor) -> None:
     scene = editor.replace(scene, "SO$0LID { }")
     params = types.DocumentHighlightParams(**scene.at())
     assert await editor.client.text_document_document_highlight_async(params) is None
+
+
+MESH = """\
+VARIABLES { VECTOR top; NUMBER last; POLYGONS house; }
+top = < 0, 0, 1 >
+last = 3
+house = {
+  VERTICES { 4
+    < 0, 0, 0 >  < 1, 0, 0 >  /* 2 < 9, 9, 9 > */ < 0, 1, 0 >
+    top }
+  FACETS { 2   0 1 2   /* 1 */ 1 2 last }
+}
+SOLID { POLYGONS house { NOPHONG SFACETS { 1
+  2 < 0, 0, 1 > } } }
+"""
+
+
+@pytest.mark.parametrize(
+    ("place", "expected"),
+    [
+        ("0$0 1 2   /*", ["< 0, 0, 0 >"]),
+        ("0 1 $02   /*", ["< 0, 1, 0 >"]),
+        ("/* 1 */ $01 2 last", ["< 1, 0, 0 >"]),
+        ("< 0, 1$0, 0 >", ["< 0, 1, 0 >"]),
+        ("/* $01 */", []),
+        ("FACETS { $02 ", []),
+        ("VERTICES { 4$0", []),
+        ("la$0st }", ["last"]),
+        ("$0top }", ["top"]),
+    ],
+)
+async def test_from_a_corner_to_its_vertex(editor: Editor, place: str, expected: list[str]) -> None:
+    scene = editor.open(MESH.replace(place.replace("$0", ""), place))
+    found = await editor.client.text_document_definition_async(types.DefinitionParams(**scene.at()))
+    assert [scene.part(each.range) for each in found or () if isinstance(each, types.Location)] == expected
+
+
+@pytest.mark.parametrize("place", ["< 1, $00, 0 >  /*", "0 $01 2   /*", "/* 1 */ 1$0 2"])
+async def test_the_facets_about_a_vertex(editor: Editor, place: str) -> None:
+    scene = editor.open(MESH.replace(place.replace("$0", ""), place))
+    marks = await editor.client.text_document_document_highlight_async(types.DocumentHighlightParams(**scene.at()))
+    assert [(scene.part(mark.range), mark.kind == types.DocumentHighlightKind.Read) for mark in marks or ()] == [
+        ("< 1, 0, 0 >", False),
+        ("1", True),
+        ("1", True),
+    ]
+    params = types.ReferenceParams(context=types.ReferenceContext(include_declaration=False), **scene.at())
+    found = shown(scene, await editor.client.text_document_references_async(params))
+    assert found == [
+        "  FACETS { 2   0 [1] 2   /* 1 */ 1 2 last }",
+        "  FACETS { 2   0 1 2   /* 1 */ [1] 2 last }",
+    ]
+
+
+async def test_a_variable_names_a_corner(editor: Editor) -> None:
+    scene = editor.open(MESH.replace("last = 3", "last = 0").replace("{ 4\n    < 0", "{ 4\n    < $00"))
+    params = types.ReferenceParams(context=types.ReferenceContext(include_declaration=False), **scene.at())
+    assert [scene.part(each.range) for each in await editor.client.text_document_references_async(params) or ()] == [
+        "0",
+        "last",
+    ]
+
+
+async def test_vertices_of_a_variable_that_is_copied(editor: Editor) -> None:
+    scene = editor.open("""\
+VARIABLES { POLYGONS house; }
+house = { VERTICES { 3 < 0, 0, 0 > < 1, 0, 0 > < 0, 1, 0 > } }
+SOLID { POLYGONS house { FACETS { 1 0 1 2$0 } } }
+""")
+    found = await editor.client.text_document_definition_async(types.DefinitionParams(**scene.at()))
+    assert shown(scene, found) == ["house = { VERTICES { 3 < 0, 0, 0 > < 1, 0, 0 > [< 0, 1, 0 >] } }"]
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        "SOLID { SPHERE { RADIUS a CENTER < a, 2 > } }",
+        "SOLID { SPHERE { RADIUS a CENTER < a, 2*a, 3 > } }",
+        "SOLID { SPHERE { RADIUS a } ( a",
+        "solid { sphere { radius a } }",
+        "SOLID { POLYGONS { VERTICES { 3 < a 1, 0 > } FACETS { a; } } }",
+        "a = = 1 SOLID { SPHERE { RADIUS a",
+    ],
+)
+async def test_names_in_broken_text_are_found(editor: Editor, broken: str) -> None:
+    scene = editor.open(f"VARIABLES {{ NUMBER a$0; }}\na = 1 /* a */\n{broken} /* a */\n")
+    params = types.ReferenceParams(context=types.ReferenceContext(include_declaration=True), **scene.at())
+    found = await editor.client.text_document_references_async(params) or ()
+    assert len(found) == 2 + sum(token == "a" for token in re.findall(r"\w+", broken))

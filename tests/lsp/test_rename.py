@@ -38,6 +38,26 @@ async def test_half_typed_text(editor: Editor) -> None:
     assert (await rename(editor, scene, "b")).count("RADIUS b") == 2
 
 
+async def test_broken_text(editor: Editor) -> None:
+    scene = editor.open("""\
+VARIABLES { NUMBER size$0; }
+size = 1
+SOLID { SPHERE { CENTER < size, 2 > RADIUS size } SPHERE { CENTER < size+1, 1e5, 3size > } ( size } /* size */
+other = = size
+size = size;
+""")
+    assert (
+        await rename(editor, scene, "r")
+        == """\
+VARIABLES { NUMBER r; }
+r = 1
+SOLID { SPHERE { CENTER < r, 2 > RADIUS r } SPHERE { CENTER < r+1, 1e5, 3size > } ( r } /* size */
+other = = r
+r = r;
+"""
+    )
+
+
 @pytest.mark.parametrize(
     ("new", "reason"),
     [

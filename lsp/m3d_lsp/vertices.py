@@ -1,0 +1,97 @@
+"""The vertices of a mesh: from the corner of a facet to the row of its vertex, and from there to all its facets."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+
+from m3dc import program
+from m3dc.analysis import Analysis
+from m3dc.values import TableValue
+from tree_sitter_m3d import blank_comments
+
+from .standing import Standing, standing
+from .text import Span
+from .tree import ancestors, leaf_at
+
+VERTICES, FACETS = "VERTICES", ("FACETS", "SFACETS")
+
+# A value of a row: a vector, a numeral or a name.
+_VALUE = re.compile(r"<[^>]*>?|[^\s<>,{}]+")
+
+
+class Vertex(NamedTuple):
+    """A vertex by its number: where its `row` is, and the `corners` of facets that name it, in order."""
+
+    number: int
+    row: Span
+    corners: list[Span]
+
+
+def vertex_at(analysis: Analysis, offset: int) -> Vertex | None:
+    """The vertex that the row, or the corner of a facet, at a byte stands for; None elsewhere, and where the mesh is
+    wrong."""
+    leaf = leaf_at(analysis.tree, offset)
+    if not any(node.type == "table" for node in ancestors(leaf)):
+        return None
+    here = standing(analysis, offset)
+    if here is None or not isinstance(here.member, program.Table):
+        return None
+    whole = standing(analysis, _end_of_block(here))
+    if whole is None:
+        return None
+    tables = whole.innermost.tables
+    vertices = tables.get(VERTICES)
+    facets = next((tables[keyword] for keyword in FACETS if keyword in tables), None)
+    keyword = here.member.entry.keyword
+    if vertices is None or facets is None or keyword not in (VERTICES, *FACETS):
+        return None
+    rows = _Rows(whole, vertices, analysis.source.data), _Rows(whole, facets, analysis.source.data)
+    number = rows[0].at(offset) if keyword == VERTICES else rows[1].corner(offset)
+    if number is None or not 0 <= number < len(vertices.rows):
+        return None
+    return Vertex(number, rows[0].values(number)[0], rows[1].corners(number))
+
+
+def _end_of_block(here: Standing) -> int:
+    """The last byte of the block about a place."""
+    around = here.blocks[-1] if here.blocks else here.item.content
+    assert isinstance(around, (program.Block, program.Assignment))
+    return here.item.start + around.span[1] - 1
+
+
+class _Rows:
+    """The rows of a table in the text."""
+
+    def __init__(self, here: Standing, table: TableValue, data: bytes) -> None:
+        self._table = table
+        self._data = data
+        self._start, self._end = here.places.span(table.span)
+
+    def at(self, offset: int) -> int | None:
+        """The row that a byte stands in."""
+        row = int(np.searchsorted(self._table.offsets, offset - self._start, side="right")) - 1
+        return row if row >= 0 and offset <= self.values(row)[-1][1] else None
+
+    def values(self, row: int) -> list[Span]:
+        """Where the values of a row are."""
+        offsets = self._table.offsets
+        start = self._start + int(offsets[row])
+        end = self._start + int(offsets[row + 1]) if row + 1 < len(offsets) else self._end
+        text = blank_comments(self._data[start:end].decode("latin-1"))
+        return [(start + match.start(), start + match.end()) for match in _VALUE.finditer(text)]
+
+    def corner(self, offset: int) -> int | None:
+        """The number of the vertex at the corner at a byte, in a table of facets."""
+        row = self.at(offset)
+        for column, (start, end) in enumerate(self.values(row)[:3] if row is not None else ()):
+            if start <= offset <= end:
+                return int(self._table.rows[row, column])
+        return None
+
+    def corners(self, number: int) -> list[Span]:
+        """Where the facets name a vertex."""
+        rows, columns = np.nonzero(self._table.rows[:, :3] == number)
+        return [self.values(row)[column] for row, column in zip(rows.tolist(), columns.tolist(), strict=True)]

@@ -23,6 +23,7 @@ from .diagnostics import Findings, Fix, Related
 from .ir import Span
 from .memo import Ledger, Steps
 from .source import Source
+from .spelling import is_certain, nearest
 from .syntax import with_digits
 
 # The members of every block that is a variable type: what the body of an assignment may hold when the type of its
@@ -96,9 +97,10 @@ class Checker:
         for declaration in item.declarations:
             type_ = declaration.type.text
             if type_ not in LANGUAGE.types:
-                near = get_close_matches(type_, LANGUAGE.types, 1, 0.7)
-                hint = f"; did you mean {near[0]}?" if near else f"; the types are {', '.join(LANGUAGE.types)}"
-                fix = Fix(f"Replace with {near[0]}", declaration.type.span, near[0]) if near else None
+                near = nearest(type_, LANGUAGE.types)
+                hint = f"; did you mean {near}?" if near else f"; the types are {', '.join(LANGUAGE.types)}"
+                certain = near is not None and is_certain(type_, near, LANGUAGE.types)
+                fix = Fix(f"Replace with {near}", declaration.type.span, near, certain) if near else None
                 self._findings.add("M3D0109", declaration.type.span, f"{type_} is not a type{hint}", fix=fix)
                 continue
             for number, name in enumerate(declaration.names):
@@ -107,7 +109,7 @@ class Checker:
                     related = (Related(before.place, "first declared here"),)
                     detail = f"{name.text} is already a {before.type}"
                     again = self._without(declaration, number) if before.type == type_ else None
-                    fix = Fix(f"Remove this {name.text}", again, "") if again else None
+                    fix = Fix(f"Remove this {name.text}", again, "", certain=True) if again else None
                     self._findings.add("M3D0201", name.span, detail, related=related, fix=fix)
                     continue
                 self.known[name.text] = Known(type_, self._findings.absolute(name.span))
@@ -125,6 +127,10 @@ class Checker:
         """A part of the current item, with what goes with it when it is cut out."""
         start, end = cut(self._data, span[0] + self._start, span[1] + self._start)
         return max(start - self._start, 0), end - self._start
+
+    def _text(self, span: Span) -> bytes:
+        """The words in a part of the current item."""
+        return b" ".join(self._data[span[0] + self._start : span[1] + self._start].split())
 
     def _only_once(self, keyword: str, span: Span, message: str, seen: dict[str, Span] | None) -> bool:
         """Whether this is the first of what was `seen` in a block, or, without that, in the file; reports any other."""
@@ -152,7 +158,7 @@ class Checker:
             near = get_close_matches(name.text, [other for other, _ in self._variables_known()], 1, 0.7)
             if near:
                 detail = f"{name.text} is not declared before here; did you mean {near[0]}?"
-                fix = Fix(f"Replace with {near[0]}", name.span, near[0])
+                fix = Fix(f"Replace with {near[0]}", name.span, near[0])  # or it is a name that is yet to be declared
             else:
                 detail, fix = f"{name.text} is not declared in a VARIABLES block before here", None
             self._findings.add("M3D0202", name.span, detail, fix=fix)
@@ -199,7 +205,9 @@ class Checker:
         if isinstance(value, ast.Name):
             if value.text == item.target.text:
                 gone = item.span if item.body is None else (value.span[0], item.body.span[0])
-                fix = Fix(f"Remove {'the assignment' if item.body is None else value.text}", gone, "")
+                # That another name is meant can not be told where there is nothing else.
+                title = f"Remove {'the assignment' if item.body is None else value.text}"
+                fix = Fix(title, gone, "", certain=item.body is not None)
                 self._findings.add("M3D0204", value.span, f"{value.text} already has its own value", fix=fix)
                 return None
             if not self._is_usable(value, target):
@@ -263,7 +271,8 @@ class Checker:
                     keyword = member.entry.keyword
                     if keyword in overwritten:
                         related = (Related(self._findings.absolute(member.span), "this one counts"),)
-                        fix = Fix(f"Remove this {keyword}", self._cut(overwritten[keyword]), "")
+                        alike = self._text(overwritten[keyword]) == self._text(member.span)
+                        fix = Fix(f"Remove this {keyword}", self._cut(overwritten[keyword]), "", certain=alike)
                         self._findings.add("M3D0512", overwritten[keyword], fill=keyword, related=related, fix=fix)
                     overwritten[keyword] = member.span
             elif not isinstance(item, ast.Assignment):
@@ -316,7 +325,7 @@ class Checker:
             good &= self._argument(argument, expected)
         if len(given) > len(wanted):
             gone = (item.keyword.span[1], given[-1].span[1])
-            fix = Fix(f"Write {entry.keyword} alone", gone, "") if entry.is_flag else None
+            fix = Fix(f"Write {entry.keyword} alone", gone, "", _is_on(given)) if entry.is_flag else None
             self._invalid(block, given[len(wanted)].span, f"{entry.keyword} takes {_takes(entry)}", fix)
             return None
         if len(given) < len(wanted):
@@ -385,7 +394,7 @@ class Checker:
         text = before[0] + after[0]
         mended = with_digits(text)
         start = place - len(before[0])
-        return None if mended is None else Fix(f"Write {mended}", (start, start + len(text)), mended)
+        return None if mended is None else Fix(f"Write {mended}", (start, start + len(text)), mended, certain=True)
 
     def _short(self, item: ast.Table, entry: language.Table, missing: language.Argument) -> program.Table:
         """A table whose last row is not whole."""
@@ -423,6 +432,11 @@ def _overwrites(member: program.Member, block: language.Block) -> bool:
 def _is_known(number: ast.Number) -> bool:
     """Whether a number could be read; what is wrong with one that could not has been reported."""
     return not math.isnan(number.value)
+
+
+def _is_on(given: tuple[ast.Argument, ...]) -> bool:
+    """Whether what stands after a flag says what the flag says alone."""
+    return len(given) == 1 and isinstance(given[0], ast.Number) and given[0].value == 1
 
 
 def _each(checks: Iterable[bool]) -> bool:

@@ -1,5 +1,6 @@
 """Diagnostics: what is wrong in a scene, where, what was expected, and how to mend it."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from .catalogue import CATALOGUE, Severity
@@ -14,11 +15,17 @@ class Related(NamedTuple):
 
 
 class Fix(NamedTuple):
-    """An edit that certainly mends it: `text` in place of `span`."""
+    """An edit that mends it: `text` in place of `span`.
+
+    A `certain` one gives what the author meant, for nothing else can have been meant, and loses nothing he wrote: only
+    such fixes are marked as preferred in an editor, and applied by "fix all". Any other is offered, to be chosen. Where
+    the text has no error, a certain fix leaves the scene as it is.
+    """
 
     title: str
     span: Span
     text: str
+    certain: bool = False
 
 
 class Diagnostic(NamedTuple):
@@ -36,6 +43,25 @@ class Diagnostic(NamedTuple):
     def message(self) -> str:
         """Headline and detail in one line."""
         return f"{self.headline}: {self.detail}" if self.detail else self.headline
+
+
+def all_certain(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The diagnostics whose fixes can be applied all at once, in the order of these: the fixes are certain, and of
+    those that get in each other's way it is the first."""
+    chosen: list[Diagnostic] = []
+    done = -1
+    for diagnostic in sorted((d for d in diagnostics if d.fix and d.fix.certain), key=_fixed):
+        start, end = _fixed(diagnostic)
+        if start > done:
+            chosen.append(diagnostic)
+            done = end
+    return chosen
+
+
+def _fixed(diagnostic: Diagnostic) -> Span:
+    """What the fix of a diagnostic takes the place of."""
+    assert diagnostic.fix is not None
+    return diagnostic.fix.span
 
 
 class Findings:

@@ -280,8 +280,11 @@ class Evaluator:
             return None
         if bounds.policy == "default":
             default = entry.default
-            value = default[number] if isinstance(default, tuple) and len(default) > 1 else default
-            assert isinstance(value, (int, float))
+            substitute = default[number] if isinstance(default, tuple) and len(default) > 1 else default
+            assert isinstance(substitute, (int, float))
+            if value == substitute:
+                return value  # the default may be a value of its own, that of none, and can be written
+            value = substitute
             detail = f"{entry.keyword} {shown} is replaced by the default, {value:g}"
             fix = _written(argument, float(value))
         elif bounds.policy == "limit":

@@ -107,7 +107,12 @@ def print_json(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str])
             record["related"] = [{"message": r.message, **_place(r.span, source)} for r in diagnostic.related]
         if diagnostic.fix is not None:
             fix = diagnostic.fix
-            record["fix"] = {"title": fix.title, "text": fix.text, **_place(fix.span, source)}
+            record["fix"] = {
+                "title": fix.title,
+                "text": fix.text,
+                "certain": fix.certain,
+                **_place(fix.span, source),
+            }
         print(json.dumps(record, ensure_ascii=False), file=file)
 
 

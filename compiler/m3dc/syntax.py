@@ -341,7 +341,7 @@ class _Builder:
         start, stop = self._span(node)
         if end < len(text):
             mended = with_digits(text)
-            fix = Fix(f"Write {mended}", (start, stop), mended) if mended else None
+            fix = Fix(f"Write {mended}", (start, stop), mended, certain=True) if mended else None
             self._findings.add("M3D0104", (start + end, stop), _digit_detail(text, end), fix=fix)
             return ast.Number(math.nan, (start, stop))
         value = float(text)

@@ -7,7 +7,6 @@ have stood there; from that set follows the message, in the words of the thesis'
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 
 from tree_sitter import Node
 
@@ -19,6 +18,7 @@ from .braces import brace_faults, repaired
 from .check import statement_of
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
+from .spelling import is_certain, nearest
 
 # Where a new top-level item begins, as one can tell after an error: at the start of a line. A type in a VARIABLES
 # block, which a name and a comma or semicolon follow, is none.
@@ -233,30 +233,30 @@ def _inserted(mark: str, fault: SyntaxFault, text: str, base: int) -> Fix | None
     after = first_error(text[:at] + new + rest)
     if after is not None and after.length and after.offset <= fault.offset + len(new):
         return None
-    return Fix(f"Insert '{mark}'", (base + at, base + at), new)
+    # A brace might stand elsewhere, an = make an assignment of something else, and two names be meant as one. Before a
+    # sign it might be a sum that was meant.
+    token = text[fault.offset : fault.offset + fault.length]
+    certain = mark in ";>" or (mark == "," and fault.block != "VARIABLES" and token[:1] not in "+-")
+    goes_on = after is None or not after.length or after.offset + after.length == len(text[:at] + new + rest)
+    return Fix(f"Insert '{mark}'", (base + at, base + at), new, certain and goes_on)
 
 
 _PUNCTUATION = {"LBRACE": "{", "RBRACE": "}", "COMMA": ",", "EQUAL": "=", "RANGLE": ">", "SEMICOLON": ";"}
 
 
-def _nearest(token: str, expected: frozenset[str]) -> str | None:
-    """The keyword that may stand here and that a token most looks like, if it looks like any."""
-    keywords = sorted(expected & LANGUAGE.keywords)
-    return next(iter(get_close_matches(token.upper(), keywords, 1, 0.7)), None)
-
-
 def _near(token: str, expected: frozenset[str], found: str) -> str:
-    near = _nearest(token, expected)
+    near = nearest(token, expected & LANGUAGE.keywords)
     if near is not None:
         return f"{found}; did you mean {near}?"
-    elsewhere = _nearest(token, LANGUAGE.keywords)
+    elsewhere = nearest(token, LANGUAGE.keywords)
     places = LANGUAGE.parents.get(elsewhere or "")
     return f"{found}; {elsewhere} stands in {', '.join(places)}" if places else found
 
 
 def _replacement(token: str, expected: frozenset[str], span: Span) -> Fix | None:
-    near = _nearest(token, expected)
-    return None if near is None else Fix(f"Replace with {near}", span, near)
+    keywords = expected & LANGUAGE.keywords
+    near = nearest(token, keywords)
+    return None if near is None else Fix(f"Replace with {near}", span, near, is_certain(token, near, keywords))
 
 
 def _open_brace(text: str) -> int:

@@ -9,7 +9,6 @@ prints the share, the worst cases, and the median time of a check.
 from __future__ import annotations
 
 import random
-import re
 import statistics
 import sys
 import time
@@ -18,23 +17,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from mutations import Mutation, mutations
+
 import m3dc
 from tree_sitter_m3d.comments import blank_comments
 from tree_sitter_m3d.formal import parser
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 NAMES = ("merman", "runway", "wheel", "two-balls", "cylinder-and-cone")
-TOKEN = re.compile(r"[+-]?\.?[0-9](?:[eE][+-]|[A-Za-z0-9_.])*|[A-Za-z]\w*|\S")
 WANTED = 0.9
-
-
-class Mutation(NamedTuple):
-    """A changed text, what was done at which byte, and where the block of the changed statement now is."""
-
-    text: str
-    what: str
-    at: int
-    block: tuple[int, int]
 
 
 class Outcome(NamedTuple):
@@ -54,46 +45,6 @@ class Outcome(NamedTuple):
         assert self.first is not None
         start, end = self.mutation.block
         return start <= self.first.span[0] <= end + 1
-
-
-def mutations(text: str, chance: random.Random, count: int) -> Iterator[Mutation]:
-    """Changes of one token of a text that is all ASCII."""
-    tokens = list(TOKEN.finditer(blank_comments(text)))
-    blocks = list(_blocks(tokens, len(text)))
-    for _ in range(count):
-        i = chance.randrange(len(tokens))
-        (start, end), at = tokens[i].span(), tokens[i].start()
-        what = chance.choice(("delete", "double", "swap"))
-        if what == "swap" and i + 1 < len(tokens):
-            next_start, next_end = tokens[i + 1].span()
-            new = text[next_start:next_end] + text[end:next_start] + text[start:end]
-            end = next_end
-        elif what == "double":
-            new = text[start:end] + " " + text[start:end]
-        else:
-            what, new = "delete", ""
-        growth = len(new) - (end - start)
-        # A brace is part of the block it makes, which stands in another; anything else is part of a statement.
-        edge = 1 if tokens[i][0] in "{}" else 0
-        around = (b for b in blocks[1:] if b[0] <= start and end + edge <= b[1])
-        low, high = min(around, key=lambda b: b[1] - b[0], default=blocks[0])
-        yield Mutation(text[:start] + new + text[end:], f"{what} {tokens[i][0]!r}", at, (low, high + growth))
-
-
-def _blocks(tokens: list[re.Match[str]], length: int) -> Iterator[tuple[int, int]]:
-    """Ranges of all blocks, from keyword to closing brace; of vectors' and assignments' lines; and the whole text."""
-    yield 0, length
-    open_: list[int] = []
-    for i, token in enumerate(tokens):
-        if token[0] == "{":
-            back = i - 1
-            while back > 0 and not tokens[back][0].isupper():
-                back -= 1
-            # An assignment's block begins with its target.
-            back = i - 2 if tokens[i - 1][0] == "=" else i - 3 if tokens[i - 2][0] == "=" else back
-            open_.append(tokens[max(back, 0)].start())
-        elif token[0] == "}":
-            yield open_.pop(), token.end()
 
 
 def outcomes(seed: int, count: int) -> Iterator[Outcome]:

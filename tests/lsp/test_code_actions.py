@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import random
 from pathlib import Path
 
 import pytest
 from editor import Editor, Scene, apply
 from lsprotocol import types
 from marks import without_marks
+from mutations import mutations
 
 import m3dc
 from m3dc.catalogue import CATALOGUE
@@ -16,6 +18,9 @@ pytestmark = pytest.mark.asyncio(loop_scope="session")
 
 LIGHT = "LIGHT { SOURCE { FROM < 0, 0, 9 > } }\n"
 DIAGNOSTICS = Path(__file__).parent.parent / "compiler/diagnostics"
+BEGINNING = types.Range(types.Position(0, 0), types.Position(0, 0))
+MOST_ROUNDS = 10
+"""A fix may show what was hidden behind it, and that another fix."""
 
 
 async def actions(
@@ -67,14 +72,13 @@ async def test_the_fix_of_a_diagnostic(editor: Editor) -> None:
 
 
 async def test_all_fixes_of_a_file(editor: Editor) -> None:
-    scene = editor.open("SCENE { DEPTH 0 LOGSCALE 5 LOGSCALE 6 SKY { OVERCAST 2 } }\nLIGHT { SOURSE { } }\n$0")
+    scene = editor.open("SCENE { SHADOWS 1 LOGSCALE 6 LOGSCALE  6 AMBIENT { INTENSITY .5 } }\nLIGHT { SOURSE { } }\n$0")
     assert await actions(editor, scene) == []
     (action,) = await actions(editor, scene, only="source.fixAll")
-    expected = "SCENE { DEPTH 2 LOGSCALE 6 SKY { OVERCAST 1 } }\nLIGHT { SOURCE { } }\n"
+    expected = "SCENE { SHADOWS LOGSCALE  6 AMBIENT { INTENSITY 0.5 } }\nLIGHT { SOURCE { } }\n"
     assert await made(editor, scene, action) == expected
     scene = editor.replace(scene, expected)
-    start = types.Position(0, 0)
-    assert await actions(editor, scene, types.Range(start, start), only="source.fixAll") == []
+    assert await actions(editor, scene, BEGINNING, only="source.fixAll") == []
 
 
 @pytest.mark.parametrize(
@@ -370,6 +374,49 @@ async def test_no_action_adds_an_error_to_the_example_of_a_diagnostic(editor: Ed
         for action in await actions(editor, scene, diagnostic.range):
             text = await made(editor, scene, action)
             assert errors(text) <= before, (action.title, text)
+
+
+UNCERTAIN = (
+    "SCENE { DEPTH 0 SKY { OVERCAST$0 2 } }\n",  # the limit is what is used, not what was meant
+    "SOLID { SPHERE { } SURFACE { COLOR$0 < 128, 64, 32 > } }\n",
+    "SOLID { SPHERE { RADIUS$0 2 RADIUS 3 } }\n",
+    "SOLID { SPHERE { } translate$0 <1,0,0> }\n",
+    "solid$0 { SPHERE { } }\n",
+    "SOLID { SPHERE { CENTER < 1, eye+$02, 3 > } }\n",
+    "SCENE { SHADOWS 0$0 }\n",
+    "VARIABLES { NUMBER size; }\nsize = 2\nSOLID { SPHERE { RADIUS sizes$0 } }\n",
+    "VARIABLES { NUMBER unused$0; }\nSCENE { }\n",
+    "SCENE { MIRAGE { PROFILE$0 { 15 0 14 5 13 20 } } }\n",  # perhaps the columns are swapped
+    "SOLID { SPHERE { RADIUS 1 }$0",
+    "SOLID { SPHERE { } } }$0\n",
+)
+
+
+@pytest.mark.parametrize("before", UNCERTAIN)
+async def test_what_is_not_certain_is_offered_and_never_done_unasked(editor: Editor, before: str) -> None:
+    scene = editor.open(before)
+    assert not any(action.is_preferred for action in await actions(editor, scene))
+    assert await actions(editor, scene, only="source.fixAll") == []
+
+
+@pytest.mark.parametrize("name", ["wheel", "two-balls", "cylinder-and-cone"])
+async def test_fix_all_adds_no_error_and_comes_to_an_end(editor: Editor, name: str, examples: Path) -> None:
+    """In examples of which one token was deleted, doubled or swapped."""
+    text = (examples / f"{name}.m3d").read_text(encoding="utf-8")
+    scene = editor.open("")
+    for mutation in mutations(text, random.Random(name), 40):
+        scene = editor.replace(scene, mutation.text)
+        for _ in range(MOST_ROUNDS):
+            found = await actions(editor, scene, BEGINNING, only="source.fixAll")
+            if not found:
+                break
+            after = await made(editor, scene, found[0])
+            assert errors(after) <= errors(scene.text), (mutation.what, after)
+            if not errors(scene.text):
+                assert spread(m3dc.compile(after).ir) == spread(m3dc.compile(scene.text).ir), mutation.what
+            scene = editor.replace(scene, after)
+        else:
+            pytest.fail(f"no end: {mutation.what}")
 
 
 @pytest.mark.parametrize("name", ["wheel", "two-balls", "terrain", "cylinder-and-cone"])

@@ -20,7 +20,8 @@ Edit = tuple[Span, str]
 
 class Action(NamedTuple):
     """`edits` make the change; where it takes long to find them, `later` does, once the action is chosen. `mends` are
-    the diagnostics that it does away with."""
+    the diagnostics that it does away with; `preferred` is whether it certainly is what the author meant, as a certain
+    `Fix` is."""
 
     title: str
     kind: types.CodeActionKind

@@ -1,4 +1,4 @@
-"""The fixes that the compiler knows: one, or all that the file has."""
+"""The fixes that the compiler knows: each where it stands, and at once all of the file that are certain."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3dc import Diagnostic
+from m3dc.diagnostics import all_certain
 
 from .action import Action, Edit, Site
 
@@ -17,22 +17,13 @@ def find(site: Site) -> Iterator[Action]:
         fix = diagnostic.fix
         if fix is not None:
             edit = fix.span, fix.text
-            yield Action(fix.title, types.CodeActionKind.QuickFix, [edit], (diagnostic,), True)
+            yield Action(fix.title, types.CodeActionKind.QuickFix, [edit], (diagnostic,), fix.certain)
 
 
 def find_all(site: Site) -> Iterator[Action]:
-    """All fixes of the file as one; of those that get in each other's way, the first."""
-    mended = list(_apart(site.analysis.diagnostics))
+    """All certain fixes of the file as one."""
+    mended = all_certain(site.analysis.diagnostics)
     if mended:
-        edits = [edit for _, edit in mended]
-        title = "Fix all that can be fixed"
-        yield Action(title, types.CodeActionKind.SourceFixAll, edits, tuple(d for d, _ in mended))
-
-
-def _apart(diagnostics: tuple[Diagnostic, ...]) -> Iterator[tuple[Diagnostic, Edit]]:
-    with_fix = [(d, (d.fix.span, d.fix.text)) for d in diagnostics if d.fix is not None]
-    done = -1
-    for diagnostic, edit in sorted(with_fix, key=lambda pair: pair[1][0]):
-        if edit[0][0] > done:
-            yield diagnostic, edit
-            done = edit[0][1]
+        edits: list[Edit] = [(d.fix.span, d.fix.text) for d in mended if d.fix is not None]
+        title = "Fix all that is certain"
+        yield Action(title, types.CodeActionKind.SourceFixAll, edits, tuple(mended))

@@ -24,7 +24,7 @@ def find(site: Site) -> Iterator[Action]:
     if edit is not None:
         mends = tuple(d for d in site.analysis.diagnostics if d.code == "M3D0411" and _is_in(d.span, site, table))
         kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
-        yield Action("Sort the points from low to high", kind, [edit], mends, bool(mends))
+        yield Action("Sort the points from low to high", kind, [edit], mends)
 
 
 def _is_in(span: tuple[int, int], site: Site, table: ast.Table) -> bool:

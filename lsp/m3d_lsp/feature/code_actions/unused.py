@@ -21,7 +21,7 @@ def find(site: Site) -> Iterator[Action]:
         if diagnostic.code == "M3D0503" and not any(o.role is Role.USE for o in names(site.analysis).of(name)):
             edits = [(span, "") for span in places_of(site, name)]
             title = f"Remove the unused variable {name}"
-            yield Action(title, types.CodeActionKind.QuickFix, edits, (diagnostic,), True)
+            yield Action(title, types.CodeActionKind.QuickFix, edits, (diagnostic,))
 
 
 def places_of(site: Site, name: str) -> list[Span]:

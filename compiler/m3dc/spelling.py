@@ -1,0 +1,40 @@
+"""Words that are nearly right: the known one that was probably meant, and whether it certainly was."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from difflib import get_close_matches
+
+from tree_sitter_m3d.table import LANGUAGE
+
+_ALIKE = 0.7  # of difflib's measure
+_SHORTEST = 4  # a shorter word is one edit away from too many others
+
+
+def nearest(word: str, known: Collection[str]) -> str | None:
+    """The known keyword that a word looks most like, if it looks like any."""
+    return next(iter(get_close_matches(word.upper(), sorted(known), 1, _ALIKE)), None)
+
+
+def is_certain(word: str, meant: str, known: Collection[str]) -> bool:
+    """Whether a word can only be the keyword `meant`, of those known here: it is that in small letters, or is one slip
+    away from it, and from no other, and has no meaning of its own elsewhere."""
+    upper = word.upper()
+    if upper == meant:
+        return True
+    if len(word) < _SHORTEST or upper in LANGUAGE.keywords:
+        return False
+    return [other for other in known if _is_one_slip(upper, other)] == [meant]
+
+
+def _is_one_slip(word: str, other: str) -> bool:
+    """Whether a letter too many, a letter missing, a wrong letter, or two letters swapped make one word of another."""
+    if len(word) > len(other):
+        word, other = other, word
+    if word == other or len(other) - len(word) > 1:
+        return False
+    start = next((i for i, (a, b) in enumerate(zip(word, other, strict=False)) if a != b), len(word))
+    if len(word) < len(other):
+        return word[start:] == other[start + 1 :]
+    swapped = word[start + 1 : start + 2] + word[start : start + 1]
+    return word[start + 1 :] == other[start + 1 :] or swapped + word[start + 2 :] == other[start:]

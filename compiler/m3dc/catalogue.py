@@ -340,6 +340,13 @@ CATALOGUE: dict[str, Entry] = {
         "SCENE { SKY { INTENSITY 1.5 } }",
         "SCENE { SKY { INTENSITY 1 } }",
     ),
+    "M3D0424": _error(
+        "Nothing may reach farther than 1e30",
+        "Once everything is transformed, no coordinate in the world is beyond 1e30, up to which pictures are exact. What "
+        "a scene writes down is within 1e20 in itself; a scale factor that is meant to be much smaller carries it farther.",
+        "SOLID { SPHERE { RADIUS 1e20 TRANSFORM { SCALEX 1e140 } } }",
+        "SOLID { SPHERE { RADIUS 1e20 TRANSFORM { SCALEX 1e4 } } }",
+    ),
     # --- probably not what was meant ------------------------------------------------------------------------------------
     "M3D0501": _warning(
         "TRANSFORM discards the transformations before it",

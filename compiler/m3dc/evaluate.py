@@ -22,6 +22,7 @@ from .diagnostics import Findings, Fix
 from .finish import FINISH
 from .ir import Span
 from .memo import Ledger, Steps
+from .reach import check_reach
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
 from .values import Record, TableValue, Value, Vector, spelled
 
@@ -71,6 +72,7 @@ class Evaluator:
         self._lights: list[Record] = []  # of the item being run
         self._memory: Steps | None = None
 
+    @np.errstate(all="ignore")  # what is not finite is looked for where a matrix is made, and where things are placed
     def run(self, items: Iterable[program.Item], faulty: frozenset[int], steps: Steps | None = None) -> World:
         """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
 
@@ -107,6 +109,7 @@ class Evaluator:
                 return Made(self._assign(content), None, (), ())
             case program.Block():
                 record = self._whole(content)
+                check_reach(record, self._findings)
                 scene = record if record.block == "SCENE" else None
                 solids = (record,) if record.block == "SOLID" else ()
                 lights = (record,) if record.block == "LIGHT" else tuple(self._lights)
@@ -152,7 +155,7 @@ class Evaluator:
 
     def _body(self, record: Record, members: tuple[program.Member, ...]) -> None:
         if record.block == "TRANSFORM":
-            record.transform = self._steps(record.transform, members)
+            self._transform(record, self._steps(record.transform, members))
             return
         for member in members:
             match member:
@@ -165,6 +168,8 @@ class Evaluator:
 
     def _nested(self, record: Record, block: program.Block) -> None:
         keyword = block.entry.keyword
+        if keyword == "TRANSFORM" and keyword in record.broken:
+            return  # there is no matrix to go on from
         if keyword == "TRANSFORM":
             start = record.transform
             if block.source is not None:
@@ -174,8 +179,9 @@ class Evaluator:
                     detail = f"{block.source.text} replaces the matrix; a block in braces would build on it"
                     self._findings.add("M3D0501", block.source.span, detail)
                 start = source.transform
+                record.broken |= source.broken & {"TRANSFORM"}
             steps = partial(self._steps, start, block.body)
-            record.transform = self._once(block.span, block, steps) if start is IDENTITY else steps()
+            self._transform(record, self._once(block.span, block, steps) if start is IDENTITY else steps())
         elif block.entry.adds:
             record.parts += (self._once(block.span, block, partial(self._whole, block)),)
         else:
@@ -191,9 +197,19 @@ class Evaluator:
             if keyword == "SKY":
                 self._lights.append(nested.member("SUN"))
 
-    def _steps(self, transform: Transform, members: tuple[program.Member, ...]) -> Transform:
-        """What a TRANSFORM block makes of the matrix before it: M = Mc M1 M2 ... (thesis 7.5.5.2)."""
+    @staticmethod
+    def _transform(record: Record, made: Transform | None) -> None:
+        """Give a record its matrix, or note that it has none that can be used."""
+        if made is None:
+            record.broken |= {"TRANSFORM"}
+        else:
+            record.transform = made
+
+    def _steps(self, start: Transform, members: tuple[program.Member, ...]) -> Transform | None:
+        """What a TRANSFORM block makes of the matrix before it: M = Mc M1 M2 ... (thesis 7.5.5.2). None where that can
+        not be undone."""
         depth = 0
+        transform: Transform | None = start
         for member in members:
             assert isinstance(member, program.Statement)
             if member.entry.keyword == "IDENTITY":
@@ -213,12 +229,12 @@ class Evaluator:
             if values is None:
                 continue
             numbers = [n for value in values for n in (value if isinstance(value, tuple) else (value,))]
-            with np.errstate(all="ignore"):
-                result = transform.then(STEPS[member.entry.keyword](*numbers))
-            if not (np.isfinite(result.matrix).all() and np.isfinite(result.inverse).all()):
-                self._findings.add("M3D0421", member.span, "its numbers are too large or too small")
+            if transform is None:
                 continue
-            transform = result
+            transform = transform.then(STEPS[member.entry.keyword](*numbers))
+            if not transform.is_finite:
+                self._findings.add("M3D0421", member.span, "its numbers are too large or too small")
+                transform = None
         return transform
 
     # --- statements ---------------------------------------------------------------------------------------------

@@ -79,7 +79,7 @@ def _stretched_sphere(thing: Record, findings: Findings) -> None:
     for part, transform in _primitives(thing):
         if part.block != "SPHERE":
             continue
-        factors = np.sqrt((transform.matrix[:3, :3] ** 2).sum(axis=1))
+        factors = transform.stretches()
         if factors.max() > factors.min() * (1 + 1e-6):
             shown = ", ".join(f"{factor:g}" for factor in factors)
             detail = f"scaled by {shown} its radius becomes {part.number('RADIUS') * factors.max():g}"
@@ -145,7 +145,7 @@ def _reaches(light: Record, source: Record, part: Record, transform: Transform) 
         return True
     half_angle = min(source.number("ANGLE"), 90.0 if source.number("EXPONENT") > 0 else 180.0)
     position = light.transform.points(np.array(source.vector("FROM")))
-    axis = unit(light.transform.vectors(np.array(source.vector("DIRECTION"))))
+    axis = unit(light.transform.ways(np.array(source.vector("DIRECTION"))))
     centre, radius = _ball(part, transform)
     offset = centre - position
     distance = float(np.sqrt(offset @ offset))

@@ -65,6 +65,7 @@ def _joined(chunks: list[NDArray[Any]]) -> NDArray[Any]:
     return chunks[0] if len(chunks) == 1 else np.concatenate(chunks)
 
 
+@np.errstate(all="ignore")  # of faulty records; what is not finite has been found before
 def lower(world: World, source: str, places: Places) -> ir.SceneIR:
     """The IR of a scene. Records that were found faulty may be in it; it is complete only where there is no error."""
     rows = _Rows(places)
@@ -133,7 +134,7 @@ def _light(rows: _Rows, record: Record) -> int:
         exponent=source.values.get("EXPONENT", 0.0),
         angle=source.values.get("ANGLE", 180.0),
         position=record.transform.points(np.array(source.vector("FROM"))),
-        direction=unit(record.transform.vectors(np.array(source.vector("DIRECTION")))),
+        direction=unit(record.transform.ways(np.array(source.vector("DIRECTION")))),
         shadows=not source.flag("NOSHADOWS"),
         highlights=not source.flag("NOSPECULAR"),
         transform=record.transform.matrix,
@@ -262,8 +263,7 @@ def _sphere(rows: _Rows, record: Record, transform: Transform) -> int:
             pole=(0.0, 0.0, 1.0),
             equator=(1.0, 0.0, 0.0),
         )
-    pole = unit(transform.vectors(np.array([0.0, 0.0, 1.0])))
-    x = transform.vectors(np.array([1.0, 0.0, 0.0]))
+    pole, x = unit(transform.ways(np.array([0.0, 0.0, 1.0]))), transform.ways(np.array([1.0, 0.0, 0.0]))
     return rows.add(
         "spheres",
         center=transform.points(np.array(record.vector("CENTER"))),
@@ -286,7 +286,7 @@ def _mesh(rows: _Rows, record: Record, transform: Transform) -> int:
     first_vertex = rows.extend("vertices", position=transform.points(mesh.vertices))
     normal_rows = np.full(mesh.facets.shape, -1, np.int32)
     if len(mesh.normals):
-        first_normal = rows.extend("normals", direction=unit(transform.normals(mesh.normals)))
+        first_normal = rows.extend("normals", direction=transform.normals(mesh.normals))
         normal_rows = mesh.normal_rows + np.int32(first_normal)
     first_facet = rows.extend(
         "facets",

@@ -38,13 +38,30 @@ class Transform(NamedTuple):
         """Differences of points, shape (..., 3), moved."""
         return vectors @ self.matrix[:3, :3]
 
+    def ways(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where vectors, shape (..., 3), point to once they are moved. Of any length: times a power of two, so that
+        nothing overflows."""
+        return _near_one(vectors) @ _near_one(self.matrix[:3, :3])
+
     def normals(self, normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Normals, shape (..., 3), moved: by the transpose of the inverse. Not normalised."""
-        return normals @ self.inverse[:3, :3].T
+        """Unit normals, shape (..., 3), moved: by the transpose of the inverse. They are unit vectors again."""
+        return unit(normals @ _near_one(self.inverse[:3, :3]).T)
+
+    def stretches(self) -> NDArray[np.float64]:
+        """The factors by which the three rows of the 3x3 part stretch. Safe against over- and underflow."""
+        rows = self.matrix[:3, :3]
+        largest = float(np.abs(rows).max())
+        exponent = 0 if 1e-100 < largest < 1e100 else math.frexp(largest)[1]
+        return np.ldexp(np.sqrt((np.ldexp(rows, -exponent) ** 2).sum(axis=1)), exponent)
 
     def length(self) -> float:
-        """The largest factor by which a row of the 3x3 part stretches: what a sphere's radius grows by (7.5.5.2)."""
-        return float(np.sqrt((self.matrix[:3, :3] ** 2).sum(axis=1).max()))
+        """The largest of these: what a sphere's radius grows by (7.5.5.2)."""
+        return float(self.stretches().max())
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether all numbers of the matrix and of its inverse are."""
+        return bool(np.isfinite(self.matrix).all() and np.isfinite(self.inverse).all())
 
 
 IDENTITY = Transform(np.eye(4), np.eye(4))
@@ -128,6 +145,11 @@ STEPS: dict[str, Callable[..., Transform]] = {
     "ROTY": rotate_y,
     "ROTZ": rotate_z,
 }
+
+
+def _near_one(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The numbers times a power of two, so that the largest is about 1: exact, and safe to be multiplied."""
+    return np.ldexp(numbers, -np.frexp(np.abs(numbers).max(initial=0.0))[1])
 
 
 def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:

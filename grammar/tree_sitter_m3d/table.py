@@ -153,7 +153,7 @@ class Language:
     """The whole table. All mappings keep the order of language.toml."""
 
     def __init__(self, table: Mapping[str, Any]) -> None:
-        self.limits: Mapping[str, int] = table["limit"]
+        self.limits: Mapping[str, int] = {name: int(most) for name, most in table["limit"].items()}
         self.reserved: tuple[str, ...] = tuple(table["reserved"])
         self.kinds: dict[str, Argument] = {kind: _kind(kind, entry) for kind, entry in table["argument"].items()}
         self.basics: dict[str, Basic] = {

@@ -95,7 +95,7 @@ def _object(here: Standing, record: Record) -> str:
 def _light(here: Standing, record: Record) -> str:
     direction = unit(np.array(record.vector("DIRECTION")))
     if here.whole.block == "LIGHT":
-        direction = unit(here.whole.transform.vectors(direction))
+        direction = unit(here.whole.transform.ways(direction))
     lines = [f"shines along `{vector(direction)}`"]
     elevation = math.degrees(math.asin(max(-1.0, min(1.0, -float(direction[2])))))
     lines.append(f"its light comes from {number(elevation)} degrees above the horizon")

@@ -10,6 +10,7 @@ A target is a module here, named in `TARGETS`, with
     def make(chance: random.Random) -> bytes        an input
     def check(data: bytes) -> str | None            what is wrong with what comes of it; it may raise, too
     SUFFIX: str                                     of a file with such an input
+    CASES: int                                      how many the test suite tries
 
 and `run = repeating(make, check)`, or a `run` of its own: (seconds, seed, cases=None) -> list[Failure].
 """
@@ -25,7 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-TARGETS = ("text",)
+TARGETS = ("text", "wireframe")
 
 # After so many failures a target ends: more of them seldom say more.
 MOST_FAILURES = 10

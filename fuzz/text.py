@@ -14,6 +14,7 @@ from . import repeating
 from .scenes import Scenes, broken
 
 SUFFIX = ".m3d"
+CASES = 300
 
 
 def make(chance: random.Random) -> bytes:

@@ -1,11 +1,14 @@
-"""The fuzz targets: that failures are found and come again by their seeds."""
+"""The fuzz targets: failures are found and come again by their seeds; a fixed number of cases of each has none."""
 
 from __future__ import annotations
 
+import importlib
 import math
 import random
 
-from fuzz import Failure, repeating
+import pytest
+
+from fuzz import TARGETS, Failure, repeating
 
 
 def make(chance: random.Random) -> bytes:
@@ -30,3 +33,9 @@ def test_what_fails_is_found_and_made_again_by_its_seed() -> None:
 
 def test_it_ends_when_its_time_is_over() -> None:
     assert repeating(make, check)(0.0, 1) == []
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_nothing_is_found_in_a_few_cases(name: str) -> None:
+    target = importlib.import_module(f"fuzz.{name}")
+    assert target.run(math.inf, 1, cases=target.CASES) == []

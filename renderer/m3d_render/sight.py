@@ -6,17 +6,25 @@ import math
 
 import numpy as np
 
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, View
 
 _STEEPEST = math.radians(89)
+
+
+# An ASPECT has no upper limit; beyond this no picture differs any more.
+_TALLEST = 1e30
+
+
+def half_height(view: View, columns: int | None = None, rows: int | None = None) -> float:
+    """Half the height of a picture of so many pixels (the scene's) on the view plane, where half its width is 1."""
+    return min((rows or view.height) / (columns or view.width) * view.aspect, _TALLEST)
 
 
 def view_angles(ir: SceneIR) -> tuple[float, float]:
     """Angles above the horizontal, rad, of the lowest and the highest pixel of the picture's middle column; the nadir
     and the zenith, where they are in the picture, count as 89 degrees."""
     view = ir.scene.view
-    half_height = view.height / view.width * view.aspect
-    ahead, up = view.distance * np.array(view.normal), half_height * np.array(view.up)
+    ahead, up = view.distance * np.array(view.normal), half_height(view) * np.array(view.up)
     ends = (ahead - up, ahead + up)
     low, high = sorted(math.atan2(z, math.hypot(x, y)) for x, y, z in ends)
     if float(ends[0][:2] @ ends[1][:2]) <= 0:  # they are on different sides of the vertical

@@ -224,3 +224,35 @@ def test_what_cannot_be_drawn_is_said(
     assert exit_status(main, ["a.m3d", "-o", "a.png", *arguments]) == 2
     assert says in capsys.readouterr().err
     assert not list(Path().glob("*.png"))
+
+
+def test_a_line_without_end_is_drawn_across_the_picture() -> None:
+    far = "VERTEX1 <0,-1e20,10> VERTEX2 <0,-1e20,-10> VERTEX3 <0,1e20,-10>"
+    seen = drawn(f"SOLID {{ RECTANGLE {{ {far} }} }}")
+    assert seen[40].all()
+    assert seen[60].all()
+    assert seen.sum() == 2 * 101, "its other two edges are far beside the picture"
+
+
+FAR = {
+    "a terrain with a peak far away": "SOLID { TERRAIN { VERTICES { 2 3 <0,0,0> <0,2,0> <0,10,0> <1,0,0> <1,1,0> "
+    "<1e18,1,0> } } }",
+    "a huge sphere about the eye": "SOLID { SPHERE { RADIUS 1e+20 } }",
+    "as far as there is": "SOLID { SPHERE { RADIUS 1e20 TRANSFORM { SCALEX 9e9 } } PLANE { } }",
+    "a lamp far away": "LIGHT { SPHERE { RADIUS 1e20 } SOURCE { POINT FROM < 1e20, 0, 0 > TO < 0, 0, 0 > ANGLE 20 } }",
+    "next to nothing": "SOLID { SPHERE { RADIUS 1e-320 CENTER < 20, 0, 6 > } PLANE { TRANSFORM { SCALEX 1e-160 } } }",
+    "a picture without end": "SOLID { SPHERE { } } SCENE { VIEW { ASPECT 1e308 } }",
+}
+
+
+@pytest.mark.parametrize("text", FAR.values(), ids=FAR)
+@pytest.mark.parametrize("hidden", wireframe.HIDDEN)
+@pytest.mark.filterwarnings("error")
+def test_what_is_far_away_is_drawn_within_the_picture(text: str, hidden: wireframe.Hidden) -> None:
+    ir = m3dc.compile(text).ir
+    for from_above in (False, True):
+        drawing = wireframe.project(ir, 40, 30, from_above=from_above, hidden=hidden, show=wireframe.MARKS)
+        assert "nan" not in wireframe.svg(drawing)
+        for layer in drawing.layers:
+            for points in (layer.starts, layer.ends):
+                assert (np.abs(points[:, :2] - (19.5, 14.5)) <= (20 + 1e-9, 15 + 1e-9)).all()

@@ -7,11 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.sight import half_height
 from m3dc.ir import SceneIR, Triple, View
 
 Points = NDArray[np.float64]
 
 NEAREST = 1e-6  # scene units ahead of the eye: what is nearer is cut off
+WIDE = 1000.0  # times the picture: what is farther beside it is cut off before it is projected
 ABOVE_FOV = 5.0  # degrees: nearly a map
 _MARGIN = 1.06
 
@@ -72,34 +74,44 @@ def to_camera(view: View, points: Points) -> Points:
     return (points - np.array(view.eye)) @ np.array([view.right, view.up, view.normal]).T
 
 
-def before_the_eye(starts: Points, ends: Points) -> tuple[Points, Points]:
-    """The parts of lines, in the camera's coordinates, that lie before the eye."""
-    kept = np.maximum(starts[:, 2], ends[:, 2]) > NEAREST
-    starts, ends = starts[kept], ends[kept]
-    for a, b in ((starts, ends), (ends, starts)):
-        behind = a[:, 2] < NEAREST
-        share = ((NEAREST - a[behind, 2]) / (b[behind, 2] - a[behind, 2]))[:, None]
-        a[behind] = a[behind] + share * (b[behind] - a[behind])
+def before_the_eye(view: View, starts: Points, ends: Points, columns: int, rows: int) -> tuple[Points, Points]:
+    """The parts of lines, in the camera's coordinates, that lie before the eye and not far beside the picture: what is
+    left is small enough in pixels to be cut to the picture exactly (`within`)."""
+    right, up = WIDE / view.distance, WIDE / view.distance * half_height(view, columns, rows)
+    planes = [(0.0, 0.0, 1.0, -NEAREST), (1.0, 0.0, right, 0.0), (-1.0, 0.0, right, 0.0)]
+    planes += [(0.0, 1.0, up, 0.0), (0.0, -1.0, up, 0.0)]
+    for *normal, offset in planes:
+        a, b = starts @ normal + offset, ends @ normal + offset
+        kept = np.maximum(a, b) > 0
+        starts, ends, a, b = starts[kept], ends[kept], a[kept], b[kept]
+        starts, ends = _cut(starts, ends, a, b), _cut(ends, starts, b, a)
     return starts, ends
+
+
+def _cut(points: Points, others: Points, inside: Points, others_inside: Points) -> Points:
+    """Points moved towards others where they are not `inside`, a signed distance."""
+    outside = inside < 0
+    share = (inside[outside] / (inside[outside] - others_inside[outside]))[:, None]
+    moved = points.copy()
+    moved[outside] += share * (others[outside] - points[outside])
+    return moved
 
 
 def to_pixels(view: View, points: Points, columns: int, rows: int) -> Points:
     """Column, row and nearness of points before the eye, in the camera's coordinates. Nearness is 1 over the distance
     ahead, which is linear along a line in the picture."""
-    half_height = rows / columns * view.aspect
-    nearness = 1 / points[:, 2]
+    nearness = 1 / np.maximum(points[:, 2], NEAREST)
     x, y = view.distance * points[:, 0] * nearness, view.distance * points[:, 1] * nearness
     column = (x + 1) / 2 * (columns - 1)
-    row = (1 - y / half_height) / 2 * (rows - 1)
+    row = (1 - y / half_height(view, columns, rows)) / 2 * (rows - 1)
     return np.stack([column, row, nearness], axis=1)
 
 
 def to_scene(view: View, pixels: Points, columns: int, rows: int) -> Points:
     """Points of the scene at columns, rows and nearnesses: what `to_camera` and `to_pixels` undo."""
-    half_height = rows / columns * view.aspect
     ahead = 1 / pixels[:, 2]
     right = (2 * pixels[:, 0] / max(columns - 1, 1) - 1) * ahead / view.distance
-    up = (1 - 2 * pixels[:, 1] / max(rows - 1, 1)) * half_height * ahead / view.distance
+    up = (1 - 2 * pixels[:, 1] / max(rows - 1, 1)) * half_height(view, columns, rows) * ahead / view.distance
     return np.stack([right, up, ahead], axis=1) @ np.array([view.right, view.up, view.normal]) + np.array(view.eye)
 
 
@@ -110,11 +122,18 @@ def within(a: Points, b: Points, columns: int, rows: int) -> tuple[Points, Point
     for axis, size in ((0, columns), (1, rows)):
         for sign, limit in ((-1.0, 0.5), (1.0, size - 0.5)):
             p, q = sign * delta[:, axis], limit - sign * a[:, axis]
-            with np.errstate(divide="ignore", invalid="ignore"):
+            with np.errstate(all="ignore"):
                 t = q / p
             low = np.where(p < 0, np.maximum(low, t), low)
             high = np.where(p > 0, np.minimum(high, t), high)
             low = np.where((p == 0) & (q < 0), 2.0, low)
     kept = low <= high
     a, delta = a[kept], delta[kept]
-    return a + low[kept, None] * delta, a + high[kept, None] * delta
+    starts, ends = (_clipped(a + at[kept, None] * delta, columns, rows) for at in (low, high))
+    return starts, ends
+
+
+def _clipped(points: Points, columns: int, rows: int) -> Points:
+    """Points in the picture: where a line comes from so far that its numbers do not tell, at its edge."""
+    points[:, :2] = points[:, :2].clip(-0.5, (columns - 0.5, rows - 0.5))
+    return points

@@ -95,7 +95,7 @@ def draw(
 
 
 def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:
-    starts, ends = before_the_eye(to_camera(view, group.starts), to_camera(view, group.ends))
+    starts, ends = before_the_eye(view, to_camera(view, group.starts), to_camera(view, group.ends), columns, rows)
     a, b = within(to_pixels(view, starts, columns, rows), to_pixels(view, ends, columns, rows), columns, rows)
     return Layer(group.name, group.color, a, b, np.zeros(len(a), bool))
 
@@ -103,6 +103,8 @@ def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:
 def _roundness(view: View, columns: int, centre: Points, radius: float) -> int:
     """Segments of a circle that are no longer than a piece, wherever on the sphere it is."""
     nearest = max(float(np.linalg.norm(centre - np.array(view.eye))) - radius, 0.02 * radius)
+    if nearest == 0:
+        return CIRCLE_STEPS
     pixels = radius / nearest * view.distance * (columns - 1) / 2
     return int(np.clip(2 * np.pi * pixels / _PIECE, CIRCLE_STEPS, _MOST_STEPS))
 

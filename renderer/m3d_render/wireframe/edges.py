@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3dc.ir import PRIMITIVE_TABLE, PrimitiveKind, SceneIR, Table
+from m3dc.transform import unit
 
 Points = NDArray[np.float64]
 
@@ -93,9 +94,8 @@ def _mesh(ir: SceneIR, row: int) -> tuple[Points, Points]:
 
 def _grid(ir: SceneIR, point: Points, u: Points, v: Points) -> tuple[Points, Points]:
     """A square of grid lines in a plane, below whatever is in the scene and around the eye's target."""
-    normal = np.cross(u, v)
-    normal /= np.linalg.norm(normal)
-    u = u / np.linalg.norm(u)
+    u, v = unit(u), unit(v)
+    normal = unit(np.cross(u, v))
     v = np.cross(normal, u)
     scene = ir.scene
     near = np.array([scene.view.target])

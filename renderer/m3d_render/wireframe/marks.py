@@ -8,13 +8,16 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render.sight import things_distance
+from m3d_render.sight import half_height, things_distance
 from m3d_render.wireframe.edges import Edges
 from m3dc.ir import LightKind, SceneIR, View
+from m3dc.transform import unit
 
 Points = NDArray[np.float64]
 
 MARKS = ("frustum", "lights", "axes")
+
+SMALLEST = 1e-100  # scene units that marks are made for, at least
 
 _YELLOW = np.array([1.0, 0.85, 0.2])
 _AXIS_COLORS = np.array([[1.0, 0.3, 0.3], [0.3, 0.9, 0.3], [0.45, 0.6, 1.0]])
@@ -57,20 +60,20 @@ def _size(ir: SceneIR) -> float:
     """A round number of scene units, about a third of the things' greatest extent, or of the distance to them."""
     extent = ir.scene.extent
     reach = things_distance(ir) if extent is None else float(np.ptp([extent.minimum, extent.maximum], axis=0).max())
-    third = (reach or 3.0) / 3
+    third = max(reach or 3.0, SMALLEST) / 3
     decade = 10.0 ** math.floor(math.log10(third))
-    return max(step * decade for step in (1, 2, 5) if step * decade <= third)
+    return max((step * decade for step in (1, 2, 5) if step * decade <= third), default=third)
 
 
 def _frustum(ir: SceneIR) -> list[tuple[Points, Points]]:
     """Four edges, the far end's rectangle, and a triangle on its upper side, which tells up."""
     view = ir.scene.view
     eye, right, up = np.array(view.eye), np.array(view.right), np.array(view.up)
-    half_height = view.height / view.width * view.aspect
+    upper = half_height(view) * up
     reach = max(things_distance(ir), 1e-6) / view.distance
     middle = eye + reach * view.distance * np.array(view.normal)
-    corners = [middle + reach * (x * right + y * half_height * up) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    tip = middle + reach * 1.4 * half_height * up
+    corners = [middle + reach * (x * right + y * upper) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    tip = middle + reach * 1.4 * upper
     sides = [(corners[i], corners[(i + 1) % 4]) for i in range(4)]
     return [*((eye, corner) for corner in corners), *sides, (corners[2], tip), (tip, corners[3])]
 
@@ -94,7 +97,7 @@ def _light(ir: SceneIR, seen_by: View, row: int, size: float) -> list[tuple[Poin
 
 def _arrow(start: Points, end: Points, seen_by: View, head: float) -> list[tuple[Points, Points]]:
     """A line with a head that is open toward the camera."""
-    way = (end - start) / np.linalg.norm(end - start)
+    way = unit(end - start)
     aside = np.cross(way, seen_by.normal)
     length = float(np.linalg.norm(aside))
     aside = np.array(seen_by.right) if length < 1e-6 else aside / length

@@ -48,7 +48,8 @@ def _draw_lines(picture: NDArray[np.float32], drawn: Points, layer: Layer, color
     """The lines of a layer, where nothing nearer has been drawn."""
     a, b, dashed = layer.starts, layer.ends, layer.hidden
     rows, columns = drawn.shape
-    steps = np.ceil(np.abs(b - a)[:, :2].max(axis=1, initial=0.0)).astype(np.int64) + 1
+    # Less than a pixel apart: points a whole pixel apart would leave gaps where they lie between two.
+    steps = np.floor(np.abs(b - a)[:, :2].max(axis=1, initial=0.0)).astype(np.int64) + 2
     line = np.repeat(np.arange(len(a)), steps)
     step = np.arange(len(line)) - np.repeat(np.cumsum(steps) - steps, steps)
     share = (step / np.maximum(steps[line] - 1, 1))[:, None]

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 
 import pytest
+from conftest import REPOSITORY
 from editor import Editor, Scene
 from lsprotocol import types
 
 import m3dc
 from m3d_lsp import snippets
+from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.formal import first_error
 from tree_sitter_m3d.table import LANGUAGE
 
@@ -44,7 +46,7 @@ def filled_in(item: types.CompletionItem, scene: Scene) -> str:
     assert isinstance(edit, types.InsertReplaceEdit)
     lines = scene.text.splitlines(keepends=True)
     start, end = (sum(map(len, lines[: p.line])) + p.character for p in (edit.replace.start, edit.replace.end))
-    return scene.text[:start] + re.sub(r"\$\{\d+:([^}]*)\}|\$\d", r"\1", edit.new_text) + scene.text[end:]
+    return scene.text[:start] + re.sub(r"\$\{\d+[:|]([^},]*)[^}]*\}|\$\d", r"\1", edit.new_text) + scene.text[end:]
 
 
 async def test_members_of_a_block(editor: Editor) -> None:
@@ -75,7 +77,7 @@ async def test_declarations(editor: Editor) -> None:
 
 
 async def test_variables_of_the_type_that_is_wanted(editor: Editor) -> None:
-    await check(editor, "SOLID { SPHERE $0", "ball")
+    await check(editor, "SOLID { SPHERE $0", "ball", "{ ... }")
     await check(editor, "SOLID { SPHERE { CENTER < 1, $0", "little", "big")
     await check(editor, "SOLID { SPHERE { RADIUS $0", "little", "big", "1")
     await check(editor, "SOLID { POLYGONS { VERTICES { 3 $0", "sand", "< x, y, z >")
@@ -95,6 +97,107 @@ async def test_half_typed_text(editor: Editor) -> None:
     await check(editor, "SOLID { SPHERE { RADIUS } SPHERE { RADIUS CENTER < 1 $0T }\n\nLIGHT { SOURCE { } }")
     await check(editor, "SOLID { BALL { } SPHERE { $0 RADIUS } }", "CENTER", "RADIUS", "TRANSFORM")
     await check(editor, "SOLID { SPHERE { \nSOLID { SPHERE { $0", "CENTER", "RADIUS", "TRANSFORM")
+
+
+async def proposal(editor: Editor, marked: str, label: str) -> tuple[types.CompletionItem, Scene]:
+    scene = editor.open(HEAD + marked)
+    (item,) = [item for item in await complete(editor, scene) if item.label == label]
+    return item, scene
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "after"),
+    [
+        ("SOLID { SPH$0 { RADIUS 1 } }", "SPHERE", "SOLID { SPHERE { RADIUS 1 } }"),
+        ("SOLID { SP$0 ball }", "SPHERE", "SOLID { SPHERE ball }"),
+        ("SOLID { SPHERE { RA$0 2 } }", "RADIUS", "SOLID { SPHERE { RADIUS 2 } }"),
+        ("SOLID { SPHERE { CEN$0TER < 0, 0, 1 > } }", "CENTER", "SOLID { SPHERE { CENTER < 0, 0, 1 > } }"),
+        ("SOLID { SPHERE { $0 /* how big */ .5 } }", "RADIUS", "SOLID { SPHERE { RADIUS /* how big */ .5 } }"),
+        ("SOL$0\n{\n  SPHERE { }\n}", "SOLID", "SOLID\n{\n  SPHERE { }\n}"),
+        ("lit$0 = 2", "little", "little = 2"),
+        ("sa$0nd\n = 2", "sand", "sand\n = 2"),
+        ("SCENE { MIRAGE { PRO$0 { 0 1 5 2 } } }", "PROFILE", "SCENE { MIRAGE { PROFILE { 0 1 5 2 } } }"),
+        (
+            "SOLID { SPHERE { RA$0\nCENTER < 0, 0, 1 > } }",
+            "RADIUS",
+            "SOLID { SPHERE { RADIUS 5\nCENTER < 0, 0, 1 > } }",
+        ),
+        ("ball = { RA$0 }\nlittle = 2", "RADIUS", "ball = { RADIUS 5 }\nlittle = 2"),
+        ("lit$0\nlittle = 2", "little", "little = \nlittle = 2"),
+    ],
+)
+async def test_what_is_there_is_not_written_again(editor: Editor, text: str, word: str, after: str) -> None:
+    item, scene = await proposal(editor, text, word)
+    assert filled_in(item, scene) == HEAD + after
+
+
+async def test_no_vector_is_put_before_one(editor: Editor) -> None:
+    await check(editor, "SOLID { SPHERE { } SURFACE { COLOR $0< 1, 0, 0 > } }", "sand")
+    await check(editor, "sand = $0< 1, 0, 0 >")
+
+
+async def test_what_may_not_be_there_twice_comes_last(editor: Editor) -> None:
+    async def order(marked: str) -> list[str]:
+        items = await complete(editor, editor.open(HEAD + marked))
+        return [item.label for item in sorted(items, key=lambda item: item.sort_text or item.label)]
+
+    assert await order("SOLID { SPHERE { RADIUS 1 $0 } }") == ["CENTER", "TRANSFORM", "RADIUS"]
+    assert await order("SOLID { SPHERE { RA$0 /* CENTER */ CENTER < 0, 0, 1 > TRANSFORM { } } }") == [
+        "RADIUS",
+        "TRANSFORM",
+        "CENTER",
+    ]
+    assert (await order("SOLID { SURFACE { COLOR sand } SPHERE { } $0 }"))[-1] == "SURFACE"
+    assert (await order("SOLID { SPHERE { } $0 }"))[0] == "SPHERE"
+    # What other blocks hold, and what is left open, does not count.
+    assert (await order("SOLID { SURFACE { COLOR sand } SPHERE { $0\nSOLID { SPHERE { RADIUS 1 } }"))[:2] == [
+        "CENTER",
+        "RADIUS",
+    ]
+    transform = "SOLID { SPHERE { TRANSFORM { TRANSX 1 $0 } } }"
+    assert (await order(transform)) == (await order(transform.replace("TRANSX 1", "")))
+
+
+@pytest.mark.parametrize(
+    ("text", "after"),
+    [
+        ("SOLID $0", None),
+        ("SOLID { SPHERE $0 }", "SOLID { SPHERE { CENTER < 1, 2, 3 > RADIUS 5  } }"),
+        ("SOLID { SPHERE ball $0 }", "SOLID { SPHERE ball {  } }"),
+        ("SCENE { MIRAGE { PROFILE $0 } }", None),
+        ("VARIABLES $0", None),
+    ],
+)
+async def test_braces_after_the_keyword_of_a_block(editor: Editor, text: str, after: str | None) -> None:
+    scene = editor.open(("" if text.startswith("V") else HEAD) + text)
+    asked = await complete(editor, scene, " ")
+    assert ("{ ... }" in [item.label for item in asked]) == ("ball" not in text)
+    (braces,) = [item for item in await complete(editor, scene) if item.label == "{ ... }"]
+    assert first_error(filled_in(braces, scene)) is None
+    if after is not None:
+        assert filled_in(braces, scene) == HEAD + after
+
+
+async def test_no_braces_before_braces(editor: Editor) -> None:
+    await check(editor, "SOLID { SPHERE $0 { } }", "ball")
+    await check(editor, "SOLID { SPHERE ball $0 { } }", *LANGUAGE.blocks["SOLID"].members())
+
+
+@pytest.mark.parametrize("name", ["two-balls", "wheel", "runway", "cylinder-and-cone", "merman"])
+async def test_after_half_of_every_word(editor: Editor, name: str) -> None:
+    """Wherever a word of a scene is half typed, with or without what follows it, the whole word is proposed; names that
+    are being declared are the author's own."""
+    whole = (REPOSITORY / f"examples/{name}.m3d").read_text(encoding="utf-8")
+    variables = blank_comments(whole).index("}")
+    declared, text = whole[:variables], whole[variables:]
+    if "VARIABLES" not in declared:
+        declared, text = "", whole
+    words = list(re.finditer(r"(?<![\w.+-])[A-Za-z]\w*", blank_comments(text)))
+    for number, word in enumerate(words[:: max(1, len(words) // 40)]):
+        half = word.start() + (len(word[0]) + 1) // 2
+        rest = text[word.end() :] if number % 2 else ""
+        items = await complete(editor, editor.open(declared + text[:half] + "$0" + rest))
+        assert word[0] in {item.label for item in items}, text[max(half - 80, 0) : half]
 
 
 async def test_nothing_where_nothing_is_wanted(editor: Editor) -> None:

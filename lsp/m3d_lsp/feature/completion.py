@@ -1,6 +1,8 @@
 """Completion, `textDocument/completion`: exactly what may stand at the cursor, says the formal grammar.
 
-- keywords of the block, with what they do, and ready to be filled in; blocks with their usual statements
+- keywords of the block, with what they do, and ready to be filled in; blocks with their usual statements. Before what
+  they would be filled in with they are the bare word; those that the block has and can not have twice come last
+- after the keyword of a block, its braces
 - variables of the type that is wanted, with what they are worth
 - values that are often wanted: colours, directions, the default
 
@@ -9,6 +11,7 @@ It works in text that is being typed: what is broken further up does not matter.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from lsprotocol import types
@@ -20,7 +23,7 @@ from tree_sitter_m3d.phrases import written
 from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement
 
 from .. import cursor, explain, snippets
-from ..comments import about_variable
+from ..comments import about_variable, comments
 from ..cursor import Cursor
 from ..markdown import escaped, fenced, markup, shown
 from ..names import names
@@ -29,7 +32,16 @@ from ..snapshot import Snapshot
 from ..summary import value_text
 
 # The order in which kinds of proposals are listed.
-FIRST, SECOND, THIRD = "1", "2", "3"
+FIRST, SECOND, THIRD, LAST = "1", "2", "3", "4"
+
+# What a block may hold more than once, besides the blocks that add something: these add to one another.
+REPEATED = {"TRANSFORM", "COLORS"}
+
+# What may stand between a word and what belongs to it, and that.
+_FOLLOWED = re.compile(rb"(?:\s|/\*(?:[^*]|\*(?!/))*\*/)*(?:([{<=0-9+.-])|([A-Za-z]\w*)(\s*=)?)")
+_BRACE_OR_WORD = re.compile(rb"[{}]|\b[A-Z][A-Z0-9]*\b")
+# How far around the cursor the members of its block are looked for, in bytes.
+NEAR = 20_000
 
 
 @request(
@@ -45,7 +57,7 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.Comp
     # A number that is being typed is complete as it is.
     begins = typed[:1].isalpha() or not typed
     items = list(_proposals(snapshot, place)) if begins and _is_asked_for(place, params.context) else []
-    insert, replace = snapshot.range(place.word), snapshot.range((place.word[0], cursor.word_end(snapshot, offset)))
+    insert, replace = snapshot.range(place.word), snapshot.range((place.word[0], _word_end(snapshot, place)))
     for item in items:
         text = item.insert_text or item.label
         both = snapshot.client.insert_replace
@@ -68,9 +80,31 @@ def _proposals(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionIt
         yield from _variables(snapshot, place)
     allowed = _members(place)
     there = _there_already(snapshot, place)
+    present = _present(snapshot, place)
+    filled = _is_followed(snapshot, place)
     for word in sorted((expected & LANGUAGE.keywords) - there):
         if allowed is None or word in allowed:
-            yield _keyword(snapshot, place, word)
+            item = _keyword(snapshot, place, word, bare=filled)
+            item.sort_text = (LAST if word in present else _order(place, word)) + word
+            yield item
+    if "LBRACE" in expected and place.word[0] == place.word[1] and not filled:
+        yield from _braces(snapshot, place)
+
+
+def _word_end(snapshot: Snapshot, place: Cursor) -> int:
+    return cursor.word_end(snapshot, place.word[1])
+
+
+def _is_followed(snapshot: Snapshot, place: Cursor, what: bytes = b"{<=0123456789+.-") -> bool:
+    """Whether what a keyword or a target would be filled in with stands behind the cursor's word already: a brace, an
+    argument, the name that a block copies, an equals sign. `what`: the characters that count; all of them count a name
+    too."""
+    match = _FOLLOWED.match(snapshot.text.data, _word_end(snapshot, place))
+    if match is None:
+        return False
+    if match[1] is not None:
+        return match[1] in what
+    return b"=" in what and match[3] is None and match[2].decode("ascii", "replace") not in LANGUAGE.keywords
 
 
 # --- keywords -----------------------------------------------------------------------------------------------------
@@ -97,7 +131,55 @@ def _there_already(snapshot: Snapshot, place: Cursor) -> set[str]:
     return {word for word in found if word == "VARIABLES" or LANGUAGE.blocks[word].once}
 
 
-def _keyword(snapshot: Snapshot, place: Cursor, word: str) -> types.CompletionItem:
+def _present(snapshot: Snapshot, place: Cursor) -> set[str]:
+    """The keywords that the block around the cursor holds and can not well hold again."""
+    if not place.prefix.opened or place.block is None or place.block.keyword in REPEATED or _declares(place):
+        return set()
+    data, remarks = snapshot.text.data, comments(snapshot.analysis)
+    start, end = place.word[0], _word_end(snapshot, place)
+    found: set[str] = set()
+    before = list(_BRACE_OR_WORD.finditer(data, max(start - NEAR, 0), start))
+    for matches, opening in ((reversed(before), b"}"), (_BRACE_OR_WORD.finditer(data, end, end + NEAR), b"{")):
+        depth = 0
+        for match in matches:
+            if remarks.at(match.start()) is not None:
+                continue
+            text = match[0].decode("ascii")
+            if match[0] in b"{}":
+                depth += 1 if match[0] == opening else -1
+                if depth < 0:
+                    break
+            elif depth == 0:
+                if text in LANGUAGE.top:
+                    break
+                found.add(text)
+    adding = {keyword for keyword, block in LANGUAGE.blocks.items() if block.adds}
+    return found - adding - REPEATED
+
+
+def _braces(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
+    """After the keyword of a block or table, or the name that it copies, what stands in its braces."""
+    last = place.last
+    if last is None or (last.terminal != "IDENTIFIER" and last.terminal not in LANGUAGE.keywords):
+        return
+    if last.terminal == "IDENTIFIER":
+        snippet, detail = "{ $0 }", "what changes the copy"
+    else:
+        snippet, detail = _snippet(last.text, place.block), f"what stands in {last.text}"
+    yield _in_braces(snapshot, snippet.removeprefix(last.text).lstrip(), detail)
+
+
+def _in_braces(snapshot: Snapshot, snippet: str, detail: str) -> types.CompletionItem:
+    """Braces with a snippet in them; an empty pair for a client that knows no snippets."""
+    item = types.CompletionItem(
+        "{ ... }", kind=types.CompletionItemKind.Snippet, detail=detail, sort_text=THIRD, insert_text="{ }"
+    )
+    if snapshot.client.snippets:
+        item.insert_text, item.insert_text_format = snippet, types.InsertTextFormat.Snippet
+    return item
+
+
+def _keyword(snapshot: Snapshot, place: Cursor, word: str, *, bare: bool) -> types.CompletionItem:
     client = snapshot.client
     block = None if _declares(place) else place.block
     said = explain.keyword(word, block.keyword if block else None)
@@ -107,9 +189,8 @@ def _keyword(snapshot: Snapshot, place: Cursor, word: str) -> types.CompletionIt
         word,
         kind=_kind(word, block),
         documentation=markup(said, markdown=client.completion_markdown) if said else None,
-        sort_text=_order(place, word) + word,
     )
-    if client.snippets and not flag:
+    if client.snippets and not flag and not bare:
         item.insert_text, item.insert_text_format = snippet, types.InsertTextFormat.Snippet
     entry = block.statements.get(word) if block else None
     if entry is not None:
@@ -174,7 +255,7 @@ def _variables(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionIt
             detail=declaration.type if value is None else f"{declaration.type} = {value_text(value)}",
             sort_text=FIRST + name,
         )
-        if not wanted and snapshot.client.snippets:
+        if not wanted and snapshot.client.snippets and not _is_followed(snapshot, place):
             item.insert_text, item.insert_text_format = f"{name} = $0", types.InsertTextFormat.Snippet
         yield item
 
@@ -219,6 +300,8 @@ def _values(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]
     default = entry.default if isinstance(entry, Statement) and len(entry.arguments) == 1 else None
     if default is not None and default not in often.values():
         often["the default"] = default
+    if slot.argument.components and _is_followed(snapshot, place, b"<"):
+        return
     for number, (label, value) in enumerate(often.items()):
         yield _value(snapshot, slot.argument, label, value, number)
     if slot.argument.components:
@@ -259,19 +342,11 @@ def _form(snapshot: Snapshot, argument: Argument) -> types.CompletionItem:
 
 def _assigned(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
     """After `name =`: what a value of the variable's type looks like."""
-    if place.last is None or place.last.terminal != "EQUAL" or not snapshot.client.snippets:
+    if place.last is None or place.last.terminal != "EQUAL" or _is_followed(snapshot, place, b"{<"):
         return
     type_ = names(snapshot.analysis).type(place.prefix.member[0].text) or ""
     if type_ == "VECTOR":
         yield _form(snapshot, LANGUAGE.kinds["point"])
     elif type_ in LANGUAGE.blocks:
-        block = LANGUAGE.blocks[type_]
-        snippet = snippets.of_block(block).removeprefix(block.keyword).lstrip()
-        yield types.CompletionItem(
-            "{ ... }",
-            kind=types.CompletionItemKind.Snippet,
-            detail=f"the statements of a {type_}",
-            sort_text=THIRD,
-            insert_text=snippet,
-            insert_text_format=types.InsertTextFormat.Snippet,
-        )
+        snippet = snippets.of_block(LANGUAGE.blocks[type_]).removeprefix(type_).lstrip()
+        yield _in_braces(snapshot, snippet, f"the statements of a {type_}")

@@ -1,12 +1,13 @@
 """What a scene consists of, as a person would list it: its variables, blocks and tables, each with a name.
 
-A block is named by the comment that stands with it, or by the variable that it is a copy of. It is made of the syntax
-alone, so that files that are not open can be listed as well.
+A block is named by the comment that stands with it, or by the variable that it is a copy of; its detail tells it from
+others of its kind: what it holds, where that is placed, and the surface. All of it is made of the syntax alone, so that
+files that are not open can be listed as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -18,6 +19,9 @@ from .comments import Comments, comments
 from .text import Span
 
 LONGEST_VALUE = 40  # characters
+
+# The transformations that place a thing.
+_MOVES = ("TRANSLATE", "TRANSX", "TRANSY", "TRANSZ")
 
 
 class Entry(NamedTuple):
@@ -100,11 +104,59 @@ class _Maker:
         body = None if item.body is None else self._start + item.body.span[0]
         title = self._remarks.title(self._real(item.span), body)
         children = self._children(item.body)
-        if title is not None:
-            name, detail = title, head
-        else:
-            name, detail = head, ", ".join(dict.fromkeys(child.keyword for child in children if _adds(child.keyword)))
+        name, detail = (title, head) if title is not None else (head, self._detail(item))
         return self._entry(name, detail, keyword, item.span, item.keyword.span, children)
+
+    def _detail(self, item: ast.Block) -> str:
+        """What tells a block from others of its kind: `SPHERE at < 0, 0, 1 >, PLANE, matt`."""
+        place = self._place(item)
+        found = [place]
+        for keyword, part in self._added(item):
+            where = self._place(part) if not place else ""
+            found.append(f"{keyword} {where}".rstrip())
+            place = place or where
+        surface = next((block for block in _blocks(item) if block.keyword.text == "SURFACE"), None)
+        if surface is not None:
+            found.append(self._surface(surface))
+        return ", ".join(dict.fromkeys(part for part in found if part))
+
+    def _added(self, item: ast.Block) -> Iterator[tuple[str, ast.Block]]:
+        """The first of each kind of thing in a block that there may be many of, or that has a place."""
+        seen = set[str]()
+        for block in _blocks(item):
+            keyword = block.keyword.text
+            placed = keyword in LANGUAGE.types and self._place(block)
+            if (_adds(keyword) or placed) and keyword not in seen:
+                seen.add(keyword)
+                yield keyword, block
+
+    def _place(self, item: ast.Block) -> str:
+        """Where a block is, as its first point says, or else what moves it: `at < 0, 0, 1 >`, `TRANSX 1`; '' where
+        neither is written."""
+        entry = LANGUAGE.blocks.get(item.keyword.text)
+        if entry is None or entry.keyword == "TRANSFORM":
+            return ""
+        for statement in _statements(item):
+            known = entry.statements.get(statement.keyword.text)
+            if known is not None and known.arguments and known.arguments[0].kind == "point" and statement.arguments:
+                return f"at {self._value(statement.arguments[0])}"
+        for block in _blocks(item):
+            for statement in _statements(block) if block.keyword.text == "TRANSFORM" else ():
+                if statement.keyword.text in _MOVES and statement.arguments:
+                    value = self._value(statement.arguments[0])
+                    return (
+                        f"at {value}" if statement.keyword.text == "TRANSLATE" else f"{statement.keyword.text} {value}"
+                    )
+        return ""
+
+    def _surface(self, surface: ast.Block) -> str:
+        """A surface as one would name it: its variable, or its colour and texture."""
+        if surface.name is not None:
+            return surface.name.text
+        colors = (s.arguments[0] for s in _statements(surface) if s.keyword.text == "COLOR" and s.arguments)
+        textures = (b for b in _blocks(surface) if b.keyword.text == "TEXTURE")
+        kinds = (kind.keyword.text for texture in textures for kind in _blocks(texture))
+        return " ".join([*(f"COLOR {self._value(color)}" for color in colors), *kinds])
 
     def _children(self, body: ast.Body | None) -> tuple[Entry, ...]:
         entries = (self.entry(item) for item in (body.items if body is not None else ()))
@@ -122,6 +174,15 @@ class _Maker:
         start, end = self._real(value.span)
         text = " ".join(self._data[start:end].decode("utf-8", "replace").split())
         return text if len(text) <= LONGEST_VALUE else text[: LONGEST_VALUE - 1] + "…"
+
+
+def _blocks(item: ast.Block) -> Iterator[ast.Block]:
+    return (member for member in (item.body.items if item.body is not None else ()) if isinstance(member, ast.Block))
+
+
+def _statements(item: ast.Block) -> Iterator[ast.Statement]:
+    members = item.body.items if item.body is not None else ()
+    return (member for member in members if isinstance(member, ast.Statement))
 
 
 def _adds(keyword: str) -> bool:

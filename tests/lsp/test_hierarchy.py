@@ -76,6 +76,26 @@ async def test_copies(editor: Editor, place: str, above: list[str], below: list[
     assert await copies(editor, scene) == (above, below)
 
 
+async def test_equal_blocks_are_told_apart(editor: Editor) -> None:
+    scene = editor.open("""\
+VARIABLES { SPHERE ba$0ll; SOLID pair; }
+pair = { SPHERE ball SPHERE ball { CENTER < 1, 0, 0 > } }
+SOLID { SPHERE ball TRANSFORM { TRANSLATE < 3, 0, 0 > } }
+SOLID { SPHERE ball { CENTER < 2, 0, 0 > } }
+""")
+    prepared = await editor.client.text_document_prepare_type_hierarchy_async(
+        types.TypeHierarchyPrepareParams(**scene.at())
+    )
+    (item,) = prepared or ()
+    below = await editor.client.type_hierarchy_subtypes_async(types.TypeHierarchySubtypesParams(item))
+    assert [f"{each.name}: {each.detail}" for each in below or ()] == [
+        "SPHERE ball: in pair",
+        "SPHERE ball: at < 1, 0, 0 >, in pair",
+        "SPHERE ball: in SOLID (at < 3, 0, 0 >, SPHERE)",
+        "SPHERE ball: at < 2, 0, 0 >, in SOLID (SPHERE at < 2, 0, 0 >)",
+    ]
+
+
 async def test_nothing_is_there(editor: Editor) -> None:
     params = types.CallHierarchyPrepareParams(**editor.open("SOLID { SPH$0ERE { } }").at())
     assert not await editor.client.text_document_prepare_call_hierarchy_async(params)

@@ -69,7 +69,7 @@ SCENE
     SUN
   MIRAGE
     PROFILE
-SOLID pair
+SOLID pair (TRANSX 1)
   TRANSFORM
 SOLID (SPHERE, PLANE)
   SPHERE
@@ -113,6 +113,52 @@ SOLID (SPHERE)
 Far away (LIGHT)
 LIGHT
 LIGHT
+""",
+    )
+
+
+async def test_equal_blocks_are_told_apart(editor: Editor) -> None:
+    await check(
+        editor,
+        """\
+VARIABLES { VECTOR place; SURFACE matt; SPHERE ball; }
+SOLID { SPHERE { CENTER < 0, 0, 1 > } SURFACE matt }
+SOLID { SPHERE { CENTER place RADIUS 2 } PLANE { } SPHERE { CENTER < 9, 9, 9 > } SURFACE { COLOR < 1, 0, 0 > } }
+SOLID { SPHERE { } TRANSFORM { ROTZ 5 TRANSLATE < 3, 0, 0 > } SURFACE matt { AMBIENT 1 } }
+SOLID { SPHERE ball { TRANSFORM { TRANSZ 2 } } SURFACE { TEXTURE { WOOD { } } } }
+SOLID { RECTANGLE { VERTEX1 < 1, 1, 1 > VERTEX2 < 0, 0, 0 > VERTEX3 < 2, 2, 2 > } }
+LIGHT { SOURCE { INTENSITY 2 FROM < 5, 5, 5 > } }
+LIGHT { SUN { } }
+""",
+        """
+VARIABLES
+  place (VECTOR)
+  matt (SURFACE)
+  ball (SPHERE)
+SOLID (SPHERE at < 0, 0, 1 >, matt)
+  SPHERE (at < 0, 0, 1 >)
+  SURFACE matt
+SOLID (SPHERE at place, PLANE, COLOR < 1, 0, 0 >)
+  SPHERE (at place)
+  PLANE
+  SPHERE (at < 9, 9, 9 >)
+  SURFACE
+SOLID (at < 3, 0, 0 >, SPHERE, matt)
+  SPHERE
+  TRANSFORM
+  SURFACE matt
+SOLID (SPHERE TRANSZ 2, WOOD)
+  SPHERE ball (TRANSZ 2)
+    TRANSFORM
+  SURFACE
+    TEXTURE (WOOD)
+      WOOD
+SOLID (RECTANGLE at < 1, 1, 1 >)
+  RECTANGLE (at < 1, 1, 1 >)
+LIGHT (SOURCE at < 5, 5, 5 >)
+  SOURCE (at < 5, 5, 5 >)
+LIGHT
+  SUN
 """,
     )
 

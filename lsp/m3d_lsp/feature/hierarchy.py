@@ -6,6 +6,7 @@ An item of a hierarchy is a variable, or a block at top level.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from typing import TypeAlias, TypeVar
 
@@ -106,7 +107,18 @@ def _variable(snapshot: Snapshot, item: types.CallHierarchyItem | types.TypeHier
 
 def _item(snapshot: Snapshot, entry: Entry, kind: type[Item]) -> Item:
     whole, place = snapshot.text.ranges([entry.span, entry.place])
-    return kind(entry.name, kind_of(entry), snapshot.uri, whole, place, detail=entry.detail or None)
+    detail = ", ".join(part for part in (entry.detail, _around(snapshot, entry)) if part)
+    return kind(entry.name, kind_of(entry), snapshot.uri, whole, place, detail=detail or None)
+
+
+def _around(snapshot: Snapshot, entry: Entry) -> str:
+    """What a block inside of another stands in, which tells it from others of its name."""
+    entries = outline(snapshot.analysis)
+    index = bisect_right(entries, entry.span[0], key=lambda outer: outer.span[0]) - 1
+    outer = entries[index] if index >= 0 else None
+    if entry.is_variable or outer is None or outer.span == entry.span:
+        return ""
+    return f"in {outer.name}" + (f" ({outer.detail})" if outer.detail and not outer.is_variable else "")
 
 
 def _at(snapshot: Snapshot, position: types.Position) -> Entry | None:

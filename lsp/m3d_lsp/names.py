@@ -84,6 +84,12 @@ class Names:
         """Every occurrence of a name."""
         return self._by_name.get(name, [])
 
+    def before(self, name: str, offset: int) -> Occurrence | None:
+        """The last occurrence of a name before a byte."""
+        places = self.of(name)
+        index = bisect_left(places, offset, key=lambda occurrence: occurrence.span[0])
+        return places[index - 1] if index else None
+
     def declaration(self, name: str) -> Occurrence | None:
         """Where a name is first declared."""
         return next((o for o in self.of(name) if o.role is Role.DECLARATION), None)

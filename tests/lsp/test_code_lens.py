@@ -13,6 +13,10 @@ VARIABLES { NUMBER size, spare; }
 size = 2 size = 3
 SCENE { }
 SOLID { SPHERE { RADIUS size } }
+SOLID
+{
+    PLANE { }
+}
 """
 
 
@@ -29,7 +33,7 @@ async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
         (2, "Preview", "m3d.preview"),
         (2, "Render", "m3d.render"),
         (2, "Dump", "m3d.dump"),
-        (3, "Dump", "m3d.dump"),
+        (4, "Dump", "m3d.dump"),
     ]
     assert found[0].command is not None
     uri, position, locations = found[0].command.arguments or ()
@@ -39,9 +43,18 @@ async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
 
 
 async def test_a_file_without_a_scene_block(editor: Editor) -> None:
-    found = await lenses(editor, editor.open("\nSOLID { SPHERE { } }\n"))
+    found = await lenses(editor, editor.open("\nSOLID {\n SPHERE { } }\n"))
     titles = [(lens.range.start.line, lens.command.title) for lens in found if lens.command]
     assert titles == [(0, "Preview"), (0, "Render"), (0, "Dump"), (1, "Dump")]
+
+
+async def test_there_is_no_comb_of_lenses(editor: Editor) -> None:
+    few = "SCENE { }\n" + "SOLID\n{\n    PLANE { }\n}\n" * 10
+    assert len(await lenses(editor, editor.open(few))) == 13
+    assert len(await lenses(editor, editor.open(few + "LIGHT\n{\n}\n"))) == 3
+    crowded = "VARIABLES { NUMBER a, b, c, d;\n NUMBER e; }\na = b e = d a = e\n"
+    titles = [lens.command.title for lens in await lenses(editor, editor.open(crowded)) if lens.command]
+    assert titles == ["a: used never, set twice", "c: used never", "e: used once, set once"]
 
 
 async def test_they_can_be_switched_off(editor: Editor) -> None:

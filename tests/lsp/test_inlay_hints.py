@@ -70,8 +70,9 @@ SOLID
     {
         TEXTURE
         {
-            WOOD { COLORS { ⟨start:⟩0 ⟨end:⟩0.5 ⟨start color:⟩< 0, 0, 0 > ⟨end color:⟩< 1, 1, 1 >
-                            0.5 1 < 0, 0, 0 > < 1, 1, 1 > } }
+            WOOD { COLORS { ⟨start:⟩0 ⟨end:⟩1 ⟨start color:⟩< 0, 0, 0 > ⟨end color:⟩< 1, 1, 1 > } }
+            MARBLE { COLORS { 0 0.5 < 0, 0, 0 > < 1, 1, 1 >
+                              0.5 1 < 0, 0, 0 > < 1, 1, 1 > } }
         }
     }
 }""",
@@ -84,11 +85,14 @@ async def test_variables_have_values(editor: Editor) -> None:
         """\
 VARIABLES { NUMBER r, s; VECTOR v, w; SPHERE ball; }
 r = 2
+
 s = r ⟨= 2⟩
+
 v = < 1, r ⟨= 2⟩, 0 >
 w = v ⟨= < 1, 2, 0 >⟩
 ball = { RADIUS s ⟨= 2⟩ }
 r = 3
+
 SOLID { SPHERE ball { CENTER w ⟨= < 1, 2, 0 >⟩ RADIUS r ⟨= 3⟩ } }
 SOLID
 {
@@ -98,6 +102,49 @@ SOLID
         FACETS { ⟨facets:⟩1 0 1 2 }
     }
 }
+""".replace(" ⟨= ", "⟨= "),
+    )
+
+
+async def test_columns_stay_lined_up(editor: Editor) -> None:
+    rows = "".join(f"    ⟨\N{FIGURE SPACE}{row}:⟩< {row}, 0, 0 >\n" for row in range(10))
+    await check(
+        editor,
+        f"""\
+SCENE
+{{
+    MIRAGE
+    {{
+        PROFILE
+        {{
+             0 10
+             5 11
+            10 12
+        }}
+    }}
+}}
+SOLID {{ POLYGONS {{ VERTICES {{ ⟨vertices:⟩11
+{rows}    ⟨10:⟩< 10, 0, 0 > }} FACETS {{ ⟨facets:⟩1 0 1 2 }} }} }}""",
+    )
+
+
+async def test_a_value_is_said_once(editor: Editor) -> None:
+    await check(
+        editor,
+        """\
+VARIABLES { NUMBER r; VECTOR v; }
+r = 2
+
+SOLID { SPHERE { RADIUS r ⟨= 2⟩ CENTER < r, r, 0 > } }
+SOLID { SPHERE { RADIUS r } }
+SOLID { SPHERE { RADIUS r } }
+
+SOLID { SPHERE { RADIUS r ⟨= 2⟩ } }
+r = 3
+SOLID { SPHERE { RADIUS r } }
+r = 4 SOLID { SPHERE { RADIUS r } }
+
+SOLID { SPHERE { RADIUS r ⟨= 4⟩ } }
 """.replace(" ⟨= ", "⟨= "),
     )
 
@@ -125,7 +172,7 @@ async def test_each_kind_can_be_switched_off() -> None:
     from m3dc.analysis import Analyser
 
     text = Text.of(
-        "VARIABLES { NUMBER r; } r = 1\nSCENE { VIEW { REGION 0, 0, r, 9 } }\n"
+        "VARIABLES { NUMBER r; } r = 1\n\nSCENE { VIEW { REGION 0, 0, r, 9 } }\n"
         "SOLID { POLYGONS { VERTICES { 3 < 0, 0, 0 > < 1, 0, 0 > < 0, 1, 0 > } FACETS { 1 0 1 2 } } }\n"
     )
     analysis = Analyser().analyse(text.source)

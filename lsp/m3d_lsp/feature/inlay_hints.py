@@ -1,8 +1,12 @@
 """Inlay hints, `textDocument/inlayHint`: what a text does not say, shown between its words.
 
 - the number of each vertex, as FACETS names it
-- the names of arguments, where there are several bare numbers: REGION, the head of a table, the first row of a PROFILE
-- what a NUMBER or VECTOR variable stands for, where it is used
+- the names of arguments, where there are several bare numbers: REGION, the head of a table, the first row of one on a
+  single line
+- what a NUMBER or VECTOR variable stands for, where it is used, unless that is said on the same line or the one before
+
+Columns that a person has lined up stay lined up: the rows of a table on several lines get no names, and the numbers of
+vertices are equally wide.
 
 Each kind can be switched off: `m3d.inlayHints.vertexIds`, `.argumentNames`, `.variableValues`. Only what is in view is
 worked out.
@@ -20,12 +24,12 @@ from lsprotocol import types
 from numpy.typing import NDArray
 
 from m3dc import ast, program
-from m3dc.values import Record
+from m3dc.values import Record, Value
 from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.table import Argument
 
 from ..explain import argument_name
-from ..names import Names, names
+from ..names import Names, Role, names
 from ..registry import request
 from ..rows import row_starts
 from ..snapshot import Snapshot
@@ -35,9 +39,14 @@ from ..text import Span
 # More hints than fit on any screen.
 MOST = 3000
 
+# A blank as wide as a digit.
+FIGURE_SPACE = "\N{FIGURE SPACE}"
+
 # A hint, and the byte that it stands at.
 _Placed: TypeAlias = tuple[int, types.InlayHint]
 
+# A number or a vector of numbers that is assigned.
+_NUMBERS = re.compile(rb"\s*=\s*(?:[+-]?\.?[0-9]|<[\s0-9.,eE+-]*>)")
 _VALUE = re.compile(r"<[^>]*>?|[^\s<>,{}]+")
 
 
@@ -117,13 +126,18 @@ class _Hints:
         if table.entry.head:
             yield from self._argument_names(table.entry.head, self._head(table, starts))
         if self._wanted.vertexIds and table.entry.keyword == "VERTICES" and len(table.entry.head) == 1:
+            width = len(str(len(starts) - 1))
             for row in range(first, min(last, first + MOST)):
-                yield self._hint(int(starts[row]), f"{row}:", None, before=True)
+                yield self._hint(int(starts[row]), f"{str(row).rjust(width, FIGURE_SPACE)}:", None, before=True)
         # A row of FACETS is but the numbers of vertices.
-        if len({argument.name for argument in table.entry.row if argument.kind != "index"}) > 1 and first == 0 < last:
+        named = {argument.name for argument in table.entry.row if argument.kind != "index"}
+        if len(named) > 1 and first == 0 < last and self._on_one_line(table.span):
             yield from self._argument_names(table.entry.row, self._first_row(table, starts))
         for row in table.rows[first:last]:
             yield from self._values(row)
+
+    def _on_one_line(self, span: Span) -> bool:
+        return b"\n" not in self._snapshot.text.data[span[0] + self._start : span[1] + self._start]
 
     def _head(self, table: program.Table, starts: NDArray[np.int64]) -> Sequence[int]:
         """Where the arguments of a table's head begin."""
@@ -155,8 +169,23 @@ class _Hints:
                 if isinstance(name, ast.Name):
                     start, end = name.span
                     value = self._names.value(name.text, start + self._start)
-                    if value is not None and not isinstance(value, Record):
+                    if value is None or isinstance(value, Record):
+                        continue
+                    if not self._is_said(name.text, start + self._start, value):
                         yield self._hint(end + self._start, f"= {value_text(value)}", None, before=False)
+
+    def _is_said(self, name: str, offset: int, value: Value) -> bool:
+        """Whether a variable's value is said on the line of a use or the line before: where it was used before, or where
+        it is assigned a number or a vector."""
+        last = self._names.before(name, offset)
+        if last is None or last.role is Role.DECLARATION:
+            return False
+        text = self._snapshot.text
+        if text.line_of(offset) - text.line_of(last.span[0]) > 1:
+            return False
+        if last.role is Role.ASSIGNMENT:
+            return _NUMBERS.match(text.data, last.span[1]) is not None
+        return self._names.value(name, last.span[0]) == value
 
     def _hint(self, offset: int, label: str, kind: types.InlayHintKind | None, *, before: bool) -> _Placed:
         position = self._snapshot.text.position(offset)

@@ -1,6 +1,4 @@
-"""Any text is compiled without an exception or a warning of Python's, and what is found after an edit is what is found
-from the start.
-"""
+"""Any text is compiled without an exception or a warning of Python's, and what has no error is a sound scene."""
 
 from __future__ import annotations
 
@@ -9,6 +7,7 @@ import warnings
 
 import m3dc
 from m3dc.analysis import Analyser
+from m3dc.soundness import fault
 
 from . import repeating
 from .scenes import Scenes, broken
@@ -35,7 +34,7 @@ def check(data: bytes) -> str | None:
         analysis = Analyser().analyse(m3dc.Source(data))
     if analysis.diagnostics != result.diagnostics:
         return "compile and analyse find different things"
-    return None
+    return fault(result.ir) if result.ok else None
 
 
 run = repeating(make, check)

@@ -1,22 +1,35 @@
 """The `.m3ir` file: one NumPy archive that `numpy.load` opens without pickle. docs/m3ir.md describes it.
 
 `header` is a JSON text as bytes: the format's version and all of `ir.Scene`; every column of every table is an array
-named `table.column`.
+named `table.column`. Nothing that a file says is trusted: it takes no more memory than the file is long, and what is
+read has passed `soundness.fault`.
 """
 
 from __future__ import annotations
 
+import io
 import json
+import math
+import os
+import sys
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, cast
+from types import NoneType, UnionType
+from typing import Annotated, Any, BinaryIO, NoReturn, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
+from numpy.lib import format as npy
+from numpy.typing import NDArray
 
 from . import ir
 from .artefact import replacing
+from .soundness import fault, not_within
 
 VERSION = 2
+
+# A header says what a scene says once, and a file's name.
+LONGEST_HEADER = 1 << 20
 
 
 class FormatError(ValueError):
@@ -40,68 +53,169 @@ def write(scene: ir.SceneIR, path: Path) -> None:
 
 
 def read(path: Path) -> ir.SceneIR:
-    """Read a scene. Raises OSError, or FormatError for anything but a whole file of this version."""
+    """Read a scene. Raises OSError, or FormatError for anything but a whole and sound file of this version."""
+    with path.open("rb") as file:
+        archive = _Archive(file)
+        header = _header(archive)
+        tables = {
+            table: {name: archive.column(f"{table}.{name}", column) for name, column in columns.items()}
+            for table, columns in ir.TABLES.items()
+        }
+    scene = ir.SceneIR(
+        _member(ir.Scene, header.get("scene"), "scene"), tables, _member(str, header.get("source"), "source")
+    )
+    wrong = fault(scene)
+    if wrong:
+        _damaged(wrong)
+    return scene
+
+
+def _damaged(what: str) -> NoReturn:
+    raise FormatError(f"it is damaged: {what}")
+
+
+# --- the archive --------------------------------------------------------------------------------------------------
+
+
+class _Archive:
+    """The arrays of an open file, by name."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._size = os.fstat(file.fileno()).st_size
+        try:
+            self._zip = zipfile.ZipFile(file)
+        except Exception as error:  # as of `_bytes`
+            raise FormatError("it is not an .m3ir file, or only a part of one") from error
+        self._members = {info.filename: info for info in self._zip.infolist()}
+        if "header.npy" not in self._members:
+            raise FormatError("it is not an .m3ir file")
+        # Of arrays that are stored as they are, all together are no longer than the file: a small file stays small.
+        if any(info.compress_type != zipfile.ZIP_STORED for info in self._zip.infolist()):
+            raise FormatError("it is compressed; the arrays of an .m3ir file are stored as they are")
+        if sum(info.file_size for info in self._zip.infolist()) > self._size:
+            _damaged("it is shorter than it says")
+
+    def _bytes(self, name: str) -> bytearray:
+        info = self._members.get(f"{name}.npy")
+        if info is None:
+            _damaged(f"{name} is missing")
+        try:
+            data = bytearray(self._zip.read(info))
+        except Exception as error:
+            # Of damaged archives `zipfile` raises a dozen kinds of exceptions, few of them documented.
+            _damaged(f"{name} can not be read, {str(error) or type(error).__name__}")
+        return data
+
+    def array(self, name: str) -> NDArray[Any]:
+        """An array, which may be written to."""
+        data = self._bytes(name)
+        file = io.BytesIO(data)
+        try:
+            version = npy.read_magic(file)
+            reader = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+            shape, backwards, dtype = reader(file)
+        except Exception:
+            # An array's header is a Python expression: there is no end to what is wrong with one.
+            _damaged(f"{name} is no array")
+        start = file.tell()
+        if dtype.hasobject or min(shape, default=0) < 0 or math.prod(shape) * dtype.itemsize != len(data) - start:
+            _damaged(f"{name} is not as long as it says")
+        values = np.frombuffer(data, dtype, offset=start)
+        return values.reshape(shape, order="F" if backwards else "C")
+
+    def column(self, name: str, column: ir.Column) -> NDArray[Any]:
+        """A column of a table."""
+        values = self.array(name)
+        if values.dtype != np.dtype(column.dtype) or values.shape[1:] != column.shape or not values.ndim:
+            _damaged(f"{name} has the wrong type or shape")
+        if values.dtype == np.bool_ and values.size and int(values.view(np.uint8).max()) > 1:
+            _damaged(f"{name} holds what is neither true nor false")
+        return values
+
+
+# --- the header ---------------------------------------------------------------------------------------------------
+
+
+def _header(archive: _Archive) -> dict[str, Any]:
+    text = archive.array("header").tobytes()
+    if len(text) > LONGEST_HEADER:
+        _damaged(f"its header is longer than {LONGEST_HEADER} bytes")
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            if not isinstance(archive, np.lib.npyio.NpzFile) or "header" not in archive.files:
-                raise FormatError("it is not an .m3ir file")
-            header = json.loads(archive["header"].tobytes())
-            if header.get("format") != "m3ir":
-                raise FormatError("it is not an .m3ir file")
-            if header.get("version") != VERSION:
-                raise FormatError(
-                    f"its format version is {header.get('version')}, this program reads version {VERSION}; "
-                    "compile the scene again with m3dc"
-                )
-            tables = {
-                table: {name: _column(archive, f"{table}.{name}", column) for name, column in columns.items()}
-                for table, columns in ir.TABLES.items()
-            }
-            for table, columns in tables.items():
-                if len({len(values) for values in columns.values()}) != 1:
-                    raise FormatError(f"it is damaged: the columns of {table} differ in length")
-            return ir.SceneIR(_scene(header["scene"]), tables, str(header["source"]))
-    except FormatError:
-        raise
-    except (zipfile.BadZipFile, EOFError, ValueError, KeyError, TypeError, AttributeError) as error:
-        reason = "it is not an .m3ir file" if not zipfile.is_zipfile(path) else f"it is damaged: {error}"
-        raise FormatError(reason) from error
-
-
-def _column(archive: Any, name: str, column: ir.Column) -> Any:
-    if name not in archive.files:
-        raise FormatError(f"it is damaged: {name} is missing")
-    values = archive[name]
-    if values.dtype != np.dtype(column.dtype) or values.shape[1:] != column.shape:
-        raise FormatError(f"it is damaged: {name} has the wrong type or shape")
-    return values
+        header = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        _damaged(f"its header is no JSON, {error}")
+    if not isinstance(header, dict) or cast("dict[str, Any]", header).get("format") != "m3ir":
+        raise FormatError("it is not an .m3ir file")
+    header = cast("dict[str, Any]", header)
+    version = header.get("version")
+    if type(version) is not int:
+        _damaged("version is not a whole number")
+    if version != VERSION:
+        raise FormatError(
+            f"its format version is {version}, this program reads version {VERSION}; compile the scene again with m3dc"
+        )
+    return header
 
 
 def _plain(scene: ir.Scene) -> dict[str, Any]:
     """A Scene's JSON form."""
-    members = scene._asdict()
-    return members | {name: members[name]._asdict() for name in _PARTS if members[name] is not None}
+    return {
+        name: member._asdict() if hasattr(member, "_asdict") else member for name, member in scene._asdict().items()
+    }
 
 
-def _scene(data: dict[str, Any]) -> ir.Scene:
-    """A Scene from its JSON form."""
-    made: dict[str, Any] = dict(data)
-    for name, kind in _PARTS.items():
-        if made[name] is not None:
-            made[name] = kind(**{k: _value(v) for k, v in made[name].items()})
-    made["spans"] = {keyword: (start, end) for keyword, (start, end) in made["spans"].items()}
-    return ir.Scene(**{k: _value(v) for k, v in made.items()})
+_KINDS = {bool: "true or false", int: "a whole number", str: "a text"}
 
 
-_PARTS = {
-    "ambient": ir.Ambient,
-    "haze": ir.Haze,
-    "sky": ir.Sky,
-    "mirage": ir.Mirage,
-    "view": ir.View,
-    "extent": ir.Extent,
-}
+def _member(kind: Any, data: Any, name: str) -> Any:
+    """A member of the header of a kind that is annotated in ir.py, from its JSON form."""
+    if get_origin(kind) is Annotated:
+        base, within = get_args(kind)
+        value = _member(base, data, name)
+        numbers: tuple[float, ...] = cast("Any", value) if isinstance(value, tuple) else (value,)
+        for number in numbers:
+            wrong = not_within(number, within)
+            if wrong:
+                _damaged(f"{name} {wrong}")
+        return cast("Any", value)
+    if isinstance(kind, UnionType):
+        (present,) = (other for other in get_args(kind) if other is not NoneType)
+        return None if data is None else _member(present, data, name)
+    if kind in _KINDS:
+        if type(data) is not kind:
+            _damaged(f"{name} is not {_KINDS[kind]}")
+        return data
+    if kind is float:
+        # A whole number of any length is one in JSON.
+        if type(data) not in (int, float) or not abs(data) <= sys.float_info.max:
+            _damaged(f"{name} is not a finite number")
+        return float(data)
+    if hasattr(kind, "_fields"):
+        return _members(kind, data, name)
+    if get_origin(kind) is tuple:
+        kinds = get_args(kind)
+        values = cast("list[Any]", data) if isinstance(data, list) else []
+        if len(values) != len(kinds):
+            _damaged(f"{name} is not {len(kinds)} numbers")
+        return tuple(_member(one, value, name) for one, value in zip(kinds, values, strict=True))
+    assert get_origin(kind) is Mapping, kind
+    return {key: _member(get_args(kind)[1], value, f"{name}.{key}") for key, value in _object(data, name).items()}
 
 
-def _value(value: Any) -> Any:
-    return tuple(cast("list[Any]", value)) if isinstance(value, list) else value
+def _members(kind: Any, data: Any, name: str) -> Any:
+    """The named tuple of a JSON object."""
+    given = _object(data, name)
+    unknown = sorted(given.keys() - set(kind._fields))
+    if unknown:
+        _damaged(f"there is no {name}.{unknown[0]}")
+    missing = [member for member in kind._fields if member not in given and member not in kind._field_defaults]
+    if missing:
+        _damaged(f"{name}.{missing[0]} is missing")
+    hints = get_type_hints(kind, include_extras=True)
+    return kind(**{member: _member(hints[member], value, f"{name}.{member}") for member, value in given.items()})
+
+
+def _object(data: Any, name: str) -> dict[str, Any]:
+    if not isinstance(data, dict):
+        _damaged(f"{name} is not an object")
+    return cast("dict[str, Any]", data)

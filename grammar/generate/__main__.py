@@ -19,7 +19,7 @@ ROOT = GRAMMAR.parent
 
 def outputs() -> dict[Path, str]:
     """Every generated file and its text."""
-    from . import automaton, formal, keywords, queries, reference, snippets, textmate
+    from . import automaton, formal, keywords, queries, reference, snippets, textmate, vim
 
     language = table.load(GRAMMAR / "language.toml")
     files = {GRAMMAR / "keywords.js": keywords.text(language)}
@@ -31,6 +31,7 @@ def outputs() -> dict[Path, str]:
     extension = ROOT / "vscode-extension"
     files[extension / "syntaxes/m3d.tmLanguage.json"] = textmate.text(language)
     files[extension / "snippets/m3d.json"] = snippets.text(language)
+    files[ROOT / "lsp/editors/vim/syntax/m3d.vim"] = vim.text(language)
     return files
 
 

@@ -25,6 +25,10 @@
 for instance (:diagnostics (:deny [\"all\"]))."
   :type 'plist)
 
+(defcustom mirage3d-indent-offset 4
+  "How many columns a block is indented by."
+  :type 'integer)
+
 (defvar mirage3d-mode-syntax-table
   (let ((table (make-syntax-table)))
     (modify-syntax-entry ?/ ". 14n" table)
@@ -41,6 +45,42 @@ for instance (:diagnostics (:deny [\"all\"]))."
     ("[-+]?\\_<[0-9]+\\(?:\\.[0-9]+\\)?\\(?:[eE][-+]?[0-9]+\\)?\\_>" . font-lock-constant-face))
   "Keywords of the language are in capitals.")
 
+(defun mirage3d--indentation ()
+  "The column that the line at point is to be indented to, as m3dfmt does it.
+nil inside a comment, whose lines stay as they are."
+  (save-excursion
+    (beginning-of-line)
+    (let ((state (syntax-ppss)))
+      (unless (nth 4 state)
+        (let ((depth (seq-count (lambda (open) (eq (char-after open) ?{))
+                                (nth 9 state)))
+              (closes (looking-at-p "[ \t]*}")))
+          (or (and (not closes) (mirage3d--names-column))
+              (* mirage3d-indent-offset (max 0 (if closes (1- depth) depth)))))))))
+
+(defun mirage3d--names-column ()
+  "Where the names of a declaration begin that goes on in the line at point.
+nil if it is none."
+  (save-excursion
+    (forward-comment (- (point)))
+    (when (eq (char-before) ?,)
+      (while (progn (beginning-of-line)
+                    (save-excursion (forward-comment (- (point)))
+                                    (eq (char-before) ?,)))
+        (forward-comment (- (point))))
+      (when (looking-at "[ \t]*[A-Za-z0-9_]+[ \t]+")
+        (goto-char (match-end 0))
+        (current-column)))))
+
+(defun mirage3d-indent-line ()
+  "Indent the line at point by the blocks that it stands in."
+  (let ((column (mirage3d--indentation)))
+    (if (null column)
+        'noindent
+      (if (<= (current-column) (current-indentation))
+          (indent-line-to column)
+        (save-excursion (indent-line-to column))))))
+
 ;;;###autoload
 (define-derived-mode mirage3d-mode prog-mode "Mirage3D"
   "Major mode for Mirage3D scenes."
@@ -48,6 +88,8 @@ for instance (:diagnostics (:deny [\"all\"]))."
               comment-end " */"
               comment-start-skip "/\\*+\\s-*"
               indent-tabs-mode nil
+              indent-line-function #'mirage3d-indent-line
+              electric-indent-chars '(?\n ?})
               font-lock-defaults '(mirage3d-font-lock-keywords)
               eglot-workspace-configuration (list :m3d mirage3d-settings))
   (eglot-ensure))

@@ -175,7 +175,7 @@ class _Hints:
                         yield self._hint(end + self._start, f"= {value_text(value)}", None, before=False)
 
     def _is_said(self, name: str, offset: int, value: Value) -> bool:
-        """Whether a variable's value is said on the line of a use or the line before: where it was used before, or where
+        """Whether a variable's value is said on the line of a use or the one before: where it was used before, or where
         it is assigned a number or a vector."""
         last = self._names.before(name, offset)
         if last is None or last.role is Role.DECLARATION:

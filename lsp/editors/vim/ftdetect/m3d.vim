@@ -1,0 +1,1 @@
+autocmd BufRead,BufNewFile *.m3d setfiletype m3d

@@ -1,10 +1,9 @@
-"""The one stretch in which a text differs from an older version of it, and where places have moved to because of it."""
+"""The one stretch in which a text differs from an older version of it, from the first byte to the last. `differences`
+has all of them."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
-
-from .ir import Span
 
 # Compared at once: pieces that stay in the processor's cache.
 PIECE = 1 << 16
@@ -24,22 +23,6 @@ class Difference(NamedTuple):
         start = _alike(old, new, shorter)
         tail = _alike(old, new, shorter - start, mirrored=True)
         return cls(start, len(old) - tail, len(new) - tail)
-
-    def forward(self, offset: int) -> int:
-        """Where a byte of the old text is in the new one; one that is not there, where the difference begins."""
-        if offset <= self.start:
-            return offset
-        return offset + self.new_end - self.old_end if offset >= self.old_end else self.start
-
-    def back(self, offset: int) -> int:
-        """Where a byte of the new text was in the old one."""
-        return Difference(self.start, self.new_end, self.old_end).forward(offset)
-
-    def span(self, span: Span) -> Span:
-        """Where a range of the old text is in the new one: one that holds the difference grows or shrinks with it."""
-        start, end = span
-        inside = self.start < end < self.old_end
-        return self.forward(start), self.new_end if inside else max(self.forward(start), self.forward(end))
 
 
 def _alike(one: bytes, other: bytes, most: int, *, mirrored: bool = False) -> int:

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
-
-from m3dc.difference import Difference
 
 from .snapshot import Snapshot
 from .text import Span, Text
@@ -28,18 +25,15 @@ class Good:
         self.snapshot = snapshot
         self.stale = stale
         self._text = text
+        self._differences = text.since(snapshot.text)
 
-    @cached_property
-    def _difference(self) -> Difference:
-        return Difference.between(self.snapshot.text.data, self._text.data)
-
-    def offset(self, position: types.Position) -> int:
-        """The byte of the snapshot's text at a position of the client's."""
-        return self._difference.back(self._text.offset(position))
+    def place(self, position: types.Position) -> Span:
+        """Where a position of the client's was in the snapshot's text: see Differences.back."""
+        return self._differences.back(self._text.offset(position))
 
     def range(self, span: Span) -> dict[str, Any]:
         """LSP's range of the client's text, as JSON, of bytes of the snapshot's."""
-        return plain(self._text.range(self._difference.span(span)))
+        return plain(self._text.range(self._differences.span(span)))
 
 
 def plain(range_: types.Range) -> dict[str, Any]:
@@ -66,6 +60,10 @@ async def last_good(server: Server, uri: str) -> Good:
     good = None if document is None else document.good
     stale = not snapshot.analysis.ok
     shown = good if stale and good is not None else snapshot
-    # Lowering a large scene takes a while.
-    await asyncio.to_thread(lambda: shown.analysis.ir)
-    return Good(shown, stale, snapshot.text)
+
+    def prepare() -> Good:
+        _ = shown.analysis.ir
+        return Good(shown, stale, snapshot.text)
+
+    # Lowering a large scene takes a while, and so does comparing two long texts.
+    return await asyncio.to_thread(prepare)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from weakref import ref
 
 import numpy as np
 from lsprotocol import types
 from numpy.typing import NDArray
 
 from m3dc import Source
+from m3dc.differences import Differences
 from m3dc.ir import Span
 
 __all__ = ["Span", "Text"]
@@ -29,6 +31,8 @@ class Text:
         self.name = name
         self.encoding = encoding
         self._starts = _line_starts(data) if starts is None else starts
+        # What lies between older versions, as long as somebody has them, and this one.
+        self._since: dict[ref[Text], Differences] = {}
 
     @classmethod
     def of(cls, text: str, name: str = "", encoding: str = "utf-16") -> Text:
@@ -141,7 +145,21 @@ class Text:
                 _line_starts(inserted)[1:] + start,
                 self._starts[last + 1 :] + (len(inserted) - (end - start)),
             ])  # fmt: skip
-        return Text(data, self.name, self.encoding, starts)
+        text = Text(data, self.name, self.encoding, starts)
+        known: dict[ref[Text], Differences] = {**self._since, ref(self): Differences()}
+        for older, differences in known.items():
+            if older() is not None:
+                text._since[older] = differences.then(start, end, len(inserted))
+        return text
+
+    def since(self, older: Text) -> Differences:
+        """What lies between an older version and this one: the edits, where all are known; otherwise what is found by
+        comparing the two, which takes a while for very long texts."""
+        known = self._since.get(ref(older))
+        if known is None:
+            known = Differences() if older is self else Differences.between(older.data, self.data)
+            self._since[ref(older)] = known
+        return known
 
 
 def _units(text: str, encoding: str) -> int:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from editor import Editor, Scene
+from editor import Editor, Scene, position
 from lsprotocol import types
 from numpy.typing import NDArray
 from own_requests import edit, process_of, start_server, to_range
@@ -244,6 +244,67 @@ async def test_places_move_with_the_text(editor: Editor) -> None:
     assert scene.part(to_range(picked.range)) == "SPHERE { CENTER < 0, -2, 1 > }"
 
 
+ROW = """\
+SCENE { VIEW { FROM < 20, 0, 3 > TO < 0, 0, 1 > WIDTH 90 HEIGHT 30 } LOGSCALE 4 }
+SOLID { SPHERE { CENTER < 0, -2, 1 > } SURFACE { COLOR < 1, 0, 0 > } }
+SOLID { SPHERE { CENTER < 0, 0, 1 > } SURFACE { COLOR < 0, 1, 0 > } }
+SOLID { SPHERE { CENTER < 0, 2, 1 > } SURFACE { COLOR < 0, 0, 1 > } }
+LIGHT { SOURCE { FROM < 9, 9, 9 > } }
+"""
+MIDDLE = "SPHERE { CENTER < 0, 0, 1 > }"
+
+
+@pytest.mark.parametrize("whole", [False, True], ids=["edits", "whole texts"])
+async def test_picture_and_text_keep_together_over_edits_far_apart(editor: Editor, whole: bool) -> None:
+    scene = editor.open(ROW)
+    solid = next(line for line in ROW.splitlines() if MIDDLE in line)
+    view = View(editor, scene, f"far apart {whole}")
+    await view.ask("render")
+
+    def change(start: int, end: int, new: str) -> None:
+        nonlocal scene
+        text = scene.text[:start] + new + scene.text[end:]
+        if whole:
+            scene = editor.replace(scene, text)
+        else:
+            range_ = types.Range(position(scene.text, start), position(scene.text, end))
+            editor.change(scene, types.TextDocumentContentChangePartial(range_, new))
+            scene = scene._replace(text=text)
+
+    async def check(stale: bool) -> None:
+        picked = await view.ask("pick", x=45, y=14)
+        assert scene.part(to_range(picked.range)) == MIDDLE
+        assert scene.part(to_range(picked.solidRange)) == solid
+        at = position(scene.text, scene.text.index(MIDDLE) + 2)
+        place = {"line": at.line, "character": at.character}
+        mask = await view.ask("mask", position=place)
+        assert scene.part(to_range(mask.range)) == solid
+        assert mask.runs
+        params = {"textDocument": {"uri": scene.uri}, "position": place}
+        dump = await editor.client.protocol.send_request_async("m3d/dump", params)
+        assert dump.stale == stale
+        assert "Solid Object Definition # 2" in dump.text
+        assert to_range(dump.ranges[0]) == to_range(picked.solidRange)
+
+    change(0, 0, "/* one */\n/* two */\n")
+    await check(stale=False)
+    end = len(scene.text)
+    for count, letter in enumerate("SOLID {", 1):
+        change(end + count - 1, end + count - 1, letter)
+    await check(stale=True)
+    change(0, 0, "x")
+    await check(stale=True)
+    before = scene.text.index(solid)
+    change(before, before, "SOLID { SPHERE { } }\n")
+    await check(stale=True)
+    line = position(scene.text, before).line
+    assert await view.ask("mask", position={"line": line, "character": 3}) is None
+    after = scene.text.index(solid) + len(solid)
+    change(after, after, " /* three */")
+    change(scene.text.index("-2"), scene.text.index("-2") + 2, "-2.5")
+    await check(stale=True)
+
+
 async def test_which_pixels_a_statement_makes(editor: Editor) -> None:
     scene = editor.open(BALLS)
     view = View(editor, scene, "mask")
@@ -296,9 +357,9 @@ async def test_the_ray_through_a_pixel(editor: Editor, examples: Path) -> None:
         seen.add(ray.end)
         assert ray.points[0] == [0, eye[2]]
         if whole.layers["primitive"][y, x] >= 0:
-            position = whole.layers["position"][y, x]
+            place = whole.layers["position"][y, x]
             assert ray.end == "hit"
-            assert ray.points[-1] == pytest.approx([np.hypot(*(position[:2] - eye[:2])), position[2]], rel=1e-5)
+            assert ray.points[-1] == pytest.approx([np.hypot(*(place[:2] - eye[:2])), place[2]], rel=1e-5)
             assert len(ray.points) >= whole.layers["path"][y, x, 1]
         else:
             angle = np.arctan2(ray.points[1][1] - eye[2], ray.points[1][0])

@@ -129,7 +129,7 @@ async def pick(server: Server, params: Any) -> dict[str, Any] | None:
     if shown is None or found is None:
         return None
     ir = shown.snapshot.analysis.ir
-    good = _now(server, shown)
+    good = await _now(server, shown)
     primitive = found["primitive"]
     light, owners = int(ir["primitives"]["light"][primitive]), "solids"
     owner = found["solid"]
@@ -150,8 +150,8 @@ async def mask(server: Server, params: Any) -> SimpleNamespace | None:
     shown, position = server.previews.shown(given.text("preview")), given.position()
     if shown is None or position is None:
         return None
-    good = _now(server, shown)
-    found = primitives_at(shown.snapshot.analysis.ir, good.offset(position))
+    good = await _now(server, shown)
+    found = primitives_at(shown.snapshot.analysis.ir, good.place(position))
     if found is None:
         return None
     span, primitives = found
@@ -206,18 +206,18 @@ def close(server: Server, params: Any) -> None:
     server.previews.close(Given(params).text("preview"))
 
 
-def primitives_at(ir: SceneIR, offset: int) -> tuple[Span, np.ndarray[tuple[int], np.dtype[np.int64]]] | None:
-    """The text of the solid or light that a byte belongs to, and the rows of its primitives; elsewhere, in a variable,
+def primitives_at(ir: SceneIR, place: Span) -> tuple[Span, np.ndarray[tuple[int], np.dtype[np.int64]]] | None:
+    """The text of the solid or light that holds a place, and the rows of its primitives; elsewhere, in a variable,
     the text of the innermost primitive, and the rows of all that were copied from it."""
     for table in ("solids", "lights"):
         spans = ir[table]["span"]
-        (rows,) = np.nonzero((spans[:, 0] <= offset) & (offset <= spans[:, 1]))
+        (rows,) = np.nonzero((spans[:, 0] <= place[0]) & (place[1] <= spans[:, 1]))
         if rows.size:
             row = int(rows[0])
             first, many = int(ir[table]["first_primitive"][row]), int(ir[table]["primitive_count"][row])
             return _span(ir, table, row), np.arange(first, first + many, dtype=np.int64)
     spans = ir["primitives"]["span"]
-    (rows,) = np.nonzero((spans[:, 0] <= offset) & (offset <= spans[:, 1]))
+    (rows,) = np.nonzero((spans[:, 0] <= place[0]) & (place[1] <= spans[:, 1]))
     if not rows.size:
         return None
     row = int(rows[np.argmin(spans[rows, 1] - spans[rows, 0])])
@@ -242,11 +242,12 @@ def _middle(i: int, count: int, of: int) -> int:
     return (2 * i + 1) * of // (2 * count)
 
 
-def _now(server: Server, shown: Shown) -> Good:
+async def _now(server: Server, shown: Shown) -> Good:
     """The version that a picture was made of, as the client has its places."""
     document = server.documents.get(shown.snapshot.uri)
     text = shown.snapshot.text if document is None else document.text
-    return Good(shown.snapshot, text is not shown.snapshot.text, text)
+    # To compare two long texts takes a while.
+    return await asyncio.to_thread(Good, shown.snapshot, text is not shown.snapshot.text, text)
 
 
 def _span(ir: SceneIR, table: str, row: int) -> Span:

@@ -33,15 +33,15 @@ async def dump(server: Server, params: Any) -> SimpleNamespace:
     given = Given(params)
     position = given.position()
     good = await last_good(server, given.uri())
-    return await asyncio.to_thread(_dump, good, None if position is None else good.offset(position))
+    return await asyncio.to_thread(_dump, good, None if position is None else good.place(position))
 
 
-def _dump(good: Good, offset: int | None) -> SimpleNamespace:
+def _dump(good: Good, place: Span | None) -> SimpleNamespace:
     ir = good.snapshot.analysis.ir
-    if offset is None:
+    if place is None:
         shown = list(islice(lines(ir, MOST_ROWS), MOST_LINES + 1))
     else:
-        span = object_at(ir, offset)
+        span = object_at(ir, place)
         shown = [] if span is None else list(islice(object_lines(ir, span, MOST_ROWS), MOST_LINES + 1))
     if len(shown) > MOST_LINES:
         shown[MOST_LINES] = Line("... and more, which m3dc --dump prints")
@@ -56,10 +56,10 @@ def _dump(good: Good, offset: int | None) -> SimpleNamespace:
     )
 
 
-def object_at(ir: SceneIR, offset: int) -> Span | None:
-    """The text of the solid or light that a byte belongs to, or that ends before it."""
+def object_at(ir: SceneIR, place: Span) -> Span | None:
+    """The text of the solid or light that holds a place, or that ends before it."""
     for table in ("solids", "lights"):
         for start, end in ir[table]["span"].tolist():
-            if start <= offset <= end:
+            if start <= place[0] and place[1] <= end:
                 return start, end
     return None

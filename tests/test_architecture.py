@@ -22,7 +22,17 @@ MAY_IMPORT = {
     "tree_sitter_m3d": {"lark"},
     "m3dc": {"tree_sitter_m3d", "tree_sitter", "numpy"},
     "m3d_render": {"m3dc", "numpy", "OpenImageIO", *FIGURES, "pyvista"},
-    "m3d_lsp": {"m3dc", "m3d_render", "tree_sitter_m3d", "tree_sitter", "numpy", "pygls", "lsprotocol"},
+    "m3d_lsp": {
+        "m3dc",
+        "m3d_render",
+        "tree_sitter_m3d",
+        "tree_sitter",
+        "numpy",
+        "pygls",
+        "lsprotocol",
+        "attrs",
+        "cattrs",
+    },
 }
 
 

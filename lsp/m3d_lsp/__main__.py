@@ -1,7 +1,5 @@
 """`python -m m3d_lsp`."""
 
-import sys
+from .cli import run
 
-from .cli import main
-
-sys.exit(main())
+run()

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
+from typing import NoReturn
 
 # How long one thread may keep the others waiting: what is long work to the server is a blink to a person.
 SWITCH_INTERVAL_S = 0.001
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the server until its client leaves. Returns the exit status."""
+    """Run the server until its client leaves. Returns the exit status: 0 where the client shut it down first, as LSP
+    wants it."""
     parser = argparse.ArgumentParser(prog="m3d-lsp", description="Language server for Mirage3D scenes.")
     parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (the default)")
     parser.add_argument("--tcp", metavar="[HOST:]PORT", help="listen on a port instead, for one client")
@@ -47,7 +50,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 2
     else:
         server.start_io()
-    return 0
+    return server.exit_status
+
+
+def run() -> NoReturn:
+    """The command. Threads that still work need not be waited for: what they find nobody reads."""
+    status = main()
+    logging.shutdown()
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def _log_to(file: str | None, level: str) -> None:
@@ -57,5 +68,5 @@ def _log_to(file: str | None, level: str) -> None:
     root = logging.getLogger()
     root.addHandler(handler)
     root.setLevel(level.upper() if file else logging.WARNING)
-    # Every message that is sent or received, whole: wanted only where everything is.
-    logging.getLogger("pygls").setLevel(logging.DEBUG if file and level == "debug" else logging.WARNING)
+    # What it says of each message is said by our own protocol.
+    logging.getLogger("pygls").setLevel(logging.WARNING)

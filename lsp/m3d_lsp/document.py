@@ -51,6 +51,8 @@ class Document:
 
     def change(self, changes: list[types.TextDocumentContentChangeEvent], version: int) -> None:
         """Take over an edit."""
+        if not changes and version == self.version:
+            return
         for change in changes:
             if isinstance(change, types.TextDocumentContentChangePartial):
                 self.text = self.text.changed(change.range, change.text)
@@ -67,9 +69,12 @@ class Document:
         self._start()
 
     async def snapshot(self) -> Snapshot:
-        """The snapshot of the text as it stands once it is there."""
+        """The snapshot of the text as it stands once it is there. Raises asyncio.CancelledError if the document is
+        closed, or is before that."""
         if self._snapshot is not None:
             return self._snapshot
+        if self._closed:
+            raise asyncio.CancelledError
         future = asyncio.get_running_loop().create_future()
         self._waiting.append(future)
         self._start()

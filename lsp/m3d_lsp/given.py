@@ -1,12 +1,14 @@
-"""Reading the parameters of requests that LSP does not know: pygls hands them over as they came."""
+"""Reading the parameters of requests that LSP does not know: they are handed over as they came, as JSON."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Any, TypeGuard
+from typing import Any, TypeGuard, cast
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
+
+from .reading import FARTHEST
 
 
 class Given:
@@ -18,7 +20,7 @@ class Given:
 
     def uri(self) -> str:
         """The document that the request is about."""
-        uri = getattr(self._get("textDocument"), "uri", None)
+        uri = _member(self._get("textDocument"), "uri")
         return uri if isinstance(uri, str) else _refuse("textDocument", "{ uri }", uri)
 
     def text(self, name: str) -> str:
@@ -48,9 +50,9 @@ class Given:
         value = self._get(name)
         if value is None:
             return None
-        line, character = getattr(value, "line", None), getattr(value, "character", None)
+        line, character = _member(value, "line"), _member(value, "character")
         if _is_whole(line, 0) and _is_whole(character, 0):
-            return types.Position(line, character)
+            return types.Position(min(line, FARTHEST), min(character, FARTHEST))
         return _refuse(name, "{ line, character }", value)
 
     def token(self) -> types.ProgressToken | None:
@@ -59,7 +61,11 @@ class Given:
         return token if isinstance(token, (str, int)) else None
 
     def _get(self, name: str) -> Any:
-        return getattr(self._params, name, None)
+        return _member(self._params, name)
+
+
+def _member(value: Any, name: str) -> Any:
+    return cast("dict[str, Any]", value).get(name) if isinstance(value, dict) else None
 
 
 def _is_whole(value: Any, least: int) -> TypeGuard[int]:

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import inspect
 import logging
 import pkgutil
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from importlib import import_module
 from importlib.metadata import version
-from threading import Event
-from typing import Any, BinaryIO, cast
+from typing import Any, BinaryIO, TypeAlias, cast
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
-from . import feature, standard_io, view
+from . import client_process, feature, frames, reading, standard_io, view
 from .document import Document
-from .documents import Documents
+from .documents import Documents, file_name
 from .feature import diagnostics
 from .preview.previews import Previews
 from .protocol import Protocol
@@ -29,29 +30,98 @@ log = logging.getLogger(__name__)
 
 SECTION = "m3d"
 
+Streams: TypeAlias = tuple[asyncio.StreamReader, asyncio.StreamWriter]
+
 
 class Server(LanguageServer):
     """A language server for scenes. `documents` are the open ones, `previews` the pictures of them."""
 
+    protocol: Protocol  # pyright: ignore[reportIncompatibleVariableOverride]
+
     def __init__(self) -> None:
-        super().__init__("m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
-        self.documents = Documents(self._looked_at)
+        super().__init__(  # pyright: ignore[reportUnknownMemberType]
+            "m3d-lsp", version("m3d-lsp"), protocol_cls=Protocol, converter_factory=reading.converter
+        )
+        self.documents = Documents(self._looked_at, self._lost)
         self.previews = Previews()
+        self.exit_status = 0
+        self._attending: asyncio.Task[None] | None = None
+
+    # --- its life -----------------------------------------------------------------------------------------------------
 
     def start_io(self, stdin: BinaryIO | None = None, stdout: BinaryIO | None = None) -> None:
         """Talk over standard input and output until the client leaves."""
-        if stdin is not None or stdout is not None or not standard_io.can_wait():
-            super().start_io(stdin, stdout)
-            return
-        self._stop_event = Event()
+        del stdin, stdout
+        self._run(self._talk_over_pipes())
+
+    def start_tcp(self, host: str, port: int) -> None:
+        """Talk to the first client that comes to a port. Raises OSError where none can be listened on."""
+        self._run(self._talk_over_network(host, port))
+
+    def _run(self, talk: Coroutine[Any, Any, None]) -> None:
+        loop = asyncio.new_event_loop()
         try:
-            asyncio.run(standard_io.talk(self.protocol, self._stop_event))
-        except BrokenPipeError:
-            log.error("the client does not listen any more")
-        except (KeyboardInterrupt, SystemExit):
-            pass
+            # Not asyncio.run, which waits for what threads still work at.
+            loop.run_until_complete(talk)
+        except KeyboardInterrupt:
+            self.exit_status = 1
         finally:
             self.shutdown()
+
+    async def _talk_over_pipes(self) -> None:
+        self.protocol.set_writer(standard_io.Writer())
+        await self.attend(await standard_io.reader())
+
+    async def _talk_over_network(self, host: str, port: int) -> None:
+        came: asyncio.Future[Streams] = asyncio.get_running_loop().create_future()
+
+        def connected(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            if came.done():
+                writer.close()
+            else:
+                came.set_result((reader, writer))
+
+        listener = await asyncio.start_server(connected, host, port)
+        reader, writer = await came
+        listener.close()
+        self.protocol.set_writer(writer)
+        await self.attend(reader)
+        writer.close()
+        with contextlib.suppress(OSError):
+            await writer.wait_closed()
+
+    async def attend(self, reader: asyncio.StreamReader) -> None:
+        """Take messages until the client leaves, or the server is ended."""
+        self._attending = asyncio.create_task(self._take_messages(reader))
+        try:
+            await self._attending
+        except asyncio.CancelledError:  # by `end`
+            await self.protocol.settle()
+            return
+        except asyncio.IncompleteReadError:
+            log.warning("the client left in the middle of a message")
+        except OSError as error:  # a pipe or a connection that broke
+            log.warning("the client does not listen any more: %s", error)
+        self.exit_status = 0 if self.protocol.was_shut_down else 1
+
+    async def _take_messages(self, reader: asyncio.StreamReader) -> None:
+        async for content in frames.contents(reader):
+            self.protocol.receive(content)
+
+    def end(self, status: int) -> None:
+        """Leave, with an exit status."""
+        self.exit_status = status
+        if self._attending is not None:
+            self._attending.cancel()
+
+    def watch(self, process: int | None) -> None:
+        """End when the client's process has gone."""
+        if process is not None and process > 0:
+            client_process.when_gone(process, self._alone)
+
+    def _alone(self) -> None:
+        log.warning("the client's process has gone")
+        self.end(0 if self.protocol.was_shut_down else 1)
 
     def shutdown(self) -> None:
         self.previews.stop()
@@ -69,12 +139,37 @@ class Server(LanguageServer):
         self.window_log_message(types.LogMessageParams(kind, message))
 
     def _looked_at(self, document: Document, snapshot: Snapshot) -> None:
+        if self.protocol.was_shut_down:
+            return
         if not self.pulls:
             self.text_document_publish_diagnostics(
                 types.PublishDiagnosticsParams(document.uri, diagnostics.of(snapshot), snapshot.version)
             )
         analysed = {"uri": document.uri, "version": snapshot.version, "ok": snapshot.analysis.ok}
         self.protocol.notify("m3d/analysed", analysed)
+
+    def not_read(self, method: str, given: Any, reason: str) -> None:
+        """A notification can not be read. Where it is about the text of a document, that is not known any more."""
+        log.warning("not read: %s", reason)
+        if method not in (types.TEXT_DOCUMENT_DID_OPEN, types.TEXT_DOCUMENT_DID_CHANGE):
+            self.tell(f"ignored: {reason}", types.MessageType.Warning)
+            return
+        document = cast("Any", given).get("textDocument") if isinstance(given, Mapping) else None
+        uri = cast("Any", document).get("uri") if isinstance(document, Mapping) else None
+        if isinstance(uri, str):
+            self.documents.lose(uri)
+        else:
+            self._show("The editor changed a file in a way that the language server could not read, nor which file.")
+
+    def _lost(self, uri: str) -> None:
+        self.forget(uri)
+        self._show(
+            f"The editor changed {file_name(uri)} in a way that the language server could not read. It knows the text "
+            "again when the file is closed and opened again."
+        )
+
+    def _show(self, message: str) -> None:
+        self.window_show_message(types.ShowMessageParams(types.MessageType.Error, message))
 
     def forget(self, uri: str) -> None:
         """A document was closed: nothing is wrong with it any more."""
@@ -91,7 +186,11 @@ class Server(LanguageServer):
         if not self.can_ask_for_settings:
             return
         item = types.ConfigurationItem(section=SECTION)
-        answer = await self.workspace_configuration_async(types.ConfigurationParams([item]))
+        try:
+            answer = await self.workspace_configuration_async(types.ConfigurationParams([item]))
+        except JsonRpcException as error:
+            self.tell(f"the settings could not be asked for: {error}", types.MessageType.Warning)
+            return
         self.apply_settings(answer[0] if answer else None)
 
     def apply_settings(self, given: Any) -> None:
@@ -157,7 +256,10 @@ def _uri(params: Any) -> str:
     """The document that a request is about; one about an item that the server gave names the item's, and one about an
     action has it in its data."""
     if isinstance(params, types.CodeAction):
-        return str(cast("dict[str, Any]", params.data)["uri"])
+        uri = cast("Any", params.data).get("uri") if isinstance(params.data, Mapping) else None
+        if not isinstance(uri, str):
+            raise JsonRpcInvalidParams("the action is none that the server has offered")
+        return uri
     return (params.text_document if hasattr(params, "text_document") else params.item).uri
 
 

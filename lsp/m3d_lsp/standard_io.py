@@ -1,25 +1,43 @@
-"""Messages over standard input and output.
+"""Standard input and output as streams.
 
-pygls reads in another thread, and wakes the message loop three times a message; where the loop can wait for the input
-itself, a message comes in a third of the time.
+Where the message loop can wait for the input itself, it does; elsewhere a thread reads.
 """
 
 from __future__ import annotations
 
 import asyncio
-import logging
+import contextlib
 import os
 import stat
 import sys
-from threading import Event
+from threading import Thread
 
-from pygls.io_ import StdoutWriter, run_async
-from pygls.protocol import JsonRPCProtocol
-
-log = logging.getLogger(__name__)
+from .frames import PIECE
 
 
-def can_wait() -> bool:
+async def reader() -> asyncio.StreamReader:
+    """Standard input. Reading it keeps nobody from leaving."""
+    stream = asyncio.StreamReader()
+    if _can_wait():
+        loop = asyncio.get_running_loop()
+        await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(stream), sys.stdin.buffer)
+    else:
+        Thread(target=_feed, args=(stream, asyncio.get_running_loop()), name="input", daemon=True).start()
+    return stream
+
+
+class Writer:
+    """Standard output, as pygls writes to it."""
+
+    def write(self, data: bytes) -> None:
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+
+    def close(self) -> None:
+        """It is closed with the process."""
+
+
+def _can_wait() -> bool:
     """Whether the message loop can wait for standard input: not for a file, nor for the console of Windows; nor where
     output goes the same way (a terminal), since then it would not wait until it is taken."""
     if sys.platform == "win32":
@@ -29,15 +47,11 @@ def can_wait() -> bool:
     return (stat.S_ISFIFO(mode) or stat.S_ISSOCK(mode)) and not os.path.sameopenfile(read, write)
 
 
-async def talk(protocol: JsonRPCProtocol, stop: Event) -> None:
-    """Handle messages until the client leaves."""
-    reader = asyncio.StreamReader()
-    loop = asyncio.get_running_loop()
-    transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), sys.stdin.buffer)
-    protocol.set_writer(StdoutWriter(sys.stdout.buffer))
-    try:
-        await run_async(stop, reader, protocol, log)
-    except asyncio.IncompleteReadError:
-        log.warning("the client left in the middle of a message")
-    finally:
-        transport.close()
+def _feed(stream: asyncio.StreamReader, loop: asyncio.AbstractEventLoop) -> None:
+    # The descriptor itself: a thread that waits in a buffered file would keep the process from ending.
+    descriptor = sys.stdin.fileno()
+    with contextlib.suppress(RuntimeError, OSError):  # the loop has ended, or the input can not be read
+        while data := os.read(descriptor, PIECE):
+            loop.call_soon_threadsafe(stream.feed_data, data)
+    with contextlib.suppress(RuntimeError):
+        loop.call_soon_threadsafe(stream.feed_eof)

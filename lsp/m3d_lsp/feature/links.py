@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lsprotocol import types
-from pygls.uris import to_fs_path
 
 from ..comments import comments
+from ..documents import file_path
 from ..registry import request
 from ..snapshot import Snapshot
 from ..text import Span
@@ -25,7 +25,7 @@ _LINK = re.compile(rb"(%s)|%s|%s" % (_ADDRESS, _QUOTED, _BARE))
 def links(snapshot: Snapshot, params: types.DocumentLinkParams) -> list[types.DocumentLink]:
     """All links. Looks whether files are there."""
     del params
-    path = to_fs_path(snapshot.uri)
+    path = file_path(snapshot.uri)
     folder = Path(path).parent if path else None
     found = [(span, target) for comment in comments(snapshot.analysis).spans
              for span, target in _in(snapshot.text.data, comment, folder)]  # fmt: skip

@@ -11,7 +11,6 @@ from threading import Event
 from typing import TYPE_CHECKING, NamedTuple
 
 from lsprotocol import types
-from pygls.uris import to_fs_path
 
 from m3dc import Source
 from m3dc.diagnostics import Findings
@@ -19,6 +18,7 @@ from m3dc.syntax import parse
 from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import Comments
+from ..documents import file_path
 from ..outline import Entry, outline, outline_of
 from ..registry import server_request
 from ..text import Text
@@ -98,7 +98,7 @@ def _in_folders(folders: list[str], opened: set[str], encoding: str, stop: Event
 
 def _file_of(uri: str) -> str | None:
     """The file of a URI in one spelling."""
-    path = to_fs_path(uri)
+    path = file_path(uri)
     return os.path.realpath(path) if path else None
 
 

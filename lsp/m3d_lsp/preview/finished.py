@@ -39,9 +39,9 @@ class Finished:
             "color": _numbers(self._rendering.picture[y, x]),
             "position": _numbers(layers["position"][y, x]),
             "normal": _numbers(layers["normal"][y, x]),
-            "depth": float(layers["depth"][y, x]),
+            "depth": _numbers(layers["depth"][y : y + 1, x])[0],
             "uv": _numbers(layers["uv"][y, x]),
-            "path": {"length": length, "arcs": int(arcs)},
+            "path": {"length": length, "arcs": int(arcs or 0)},
         }
 
     def mask(self, primitives: NDArray[np.int64]) -> list[tuple[int, int, int]]:
@@ -69,7 +69,7 @@ class Finished:
                 points = [points[0], hit]
         return {"points": points, "end": end}
 
-    def _path(self, x: int, y: int) -> list[float]:
+    def _path(self, x: int, y: int) -> list[float | None]:
         """Length, and number of arcs, of the ray through a pixel."""
         rendering = self._rendering
         alone = self._prepared.render(
@@ -117,5 +117,6 @@ class Finished:
         return [(0.0, eye[2]), (r, eye[2] + slope * r)], end
 
 
-def _numbers(values: NDArray[np.float32]) -> list[float]:
-    return [float(value) for value in values]
+def _numbers(values: NDArray[np.float32]) -> list[float | None]:
+    """Numbers for JSON, which has none that is not finite."""
+    return [float(value) if np.isfinite(value) else None for value in values]

@@ -34,6 +34,9 @@ INTEGER_LIMIT = 2**31 - 1
 _SUBSTITUTED = {"default": "M3D0402", "limit": "M3D0422", "warn": "M3D0423"}
 
 
+TURN = 360.0  # degrees
+
+
 class Made(NamedTuple):
     """What one item adds to a scene: the value that it gives a variable, or records."""
 
@@ -292,6 +295,7 @@ class Evaluator:
                 argument.span,
                 f"{entry.keyword} is {shown}, expected {bounds.interval}",
                 fill=bounds.message,
+                fix=_turned(argument, value, bounds.interval) if expected.unit == "degrees" else None,
             )
             return None
         if bounds.policy == "default":
@@ -421,6 +425,16 @@ class Evaluator:
 
     def _row_error(self, code: str, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
         self._findings.add_at(code, value.place(row), detail, fill=fill)
+
+
+def _turned(argument: ast.Argument, value: float | Vector, interval: language.Interval) -> Fix | None:
+    """The fix that writes an angle as the one that whole turns away is in range, where the range is a whole turn: 270
+    degrees are -90. There is no other such angle, so that it is certain."""
+    if isinstance(value, tuple) or interval.high - interval.low != TURN or not math.isfinite(value):
+        return None
+    turned = interval.low + (value - interval.low) % TURN
+    fix = _written(argument, float(f"{turned:.12g}"))
+    return None if fix is None else fix._replace(certain=True)
 
 
 def _written(argument: ast.Argument, value: float | Vector) -> Fix | None:

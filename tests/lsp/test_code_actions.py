@@ -145,9 +145,52 @@ TRIANGLE = "VERTICES { 3 <0,0,0> <1,0,0> <0,1,0> }"
 async def test_counts(editor: Editor) -> None:
     mesh = "SOLID {{ POLYGONS {{ VERTICES {{ {} <0,0,0> <1,0,0> <0,1,0> $0<1,1,1> }} FACETS {{ 1 0 1 2 }} }} }}\n"
     await check(editor, mesh.format(3), "Write that there are 4 VERTICES", mesh.format(4).replace("$0", ""))
+    for place in ("VERTICES { $03", "VER$0TICES { 3"):
+        before = mesh.format(3).replace("$0", "").replace(place.replace("$0", ""), place)
+        await check(editor, before, "Write that there are 4 VERTICES", mesh.format(4).replace("$0", ""))
     # The rows that were not read name a vertex that is not there.
     scene = f"SOLID {{ POLYGONS {{ {TRIANGLE} FACETS {{ 1 0 1 2 $07 8 9 7 8 9 }} }} }}\n"
     assert await titles(editor, scene) == []
+
+
+@pytest.mark.parametrize(
+    ("before", "title", "after"),
+    [
+        ("SPH$0ERE { RADIUS 2 }\n", "Put this into a SOLID", "SOLID { SPHERE { RADIUS 2 } }\n"),
+        (
+            "SCENE { SKY { } } SPHERE { RADIUS 2 } SUR$0FACE { COLOR < 1, 0, 0 > }\n",
+            "Put these 2 into a SOLID",
+            "SCENE { SKY { } } SOLID { SPHERE { RADIUS 2 } SURFACE { COLOR < 1, 0, 0 > } }\n",
+        ),
+        (
+            "$0SPHERE\n{\n    RADIUS 2\n\n}\nPLANE { }\nLIGHT { }\n",
+            "Put these 2 into a SOLID",
+            "SOLID\n{\n    SPHERE\n    {\n        RADIUS 2\n\n    }\n    PLANE { }\n}\nLIGHT { }\n",
+        ),
+        ("SO$0URCE { FROM < 0, 0, 9 > }\n", "Put this into a LIGHT", "LIGHT { SOURCE { FROM < 0, 0, 9 > } }\n"),
+        ("VI$0EW { FOV 5 }\nLIGHT { }\n", "Put this into a SCENE", "SCENE { VIEW { FOV 5 } }\nLIGHT { }\n"),
+        (
+            "$0SOLID { SPHERE { } }\n",
+            "Add a LIGHT",
+            "SOLID { SPHERE { } }\n\nLIGHT { SOURCE { INFINITE AZIMUTH 70 ZENITH 50 } }\n",
+        ),
+        ("SCENE { SKY { SUN { AZIMUTH $0270 } } }\n", "Write -90", "SCENE { SKY { SUN { AZIMUTH -90 } } }\n"),
+        (
+            "LIGHT { SOURCE { AZIMUTH -190.1$0 } }\n",
+            "Write 169.9",
+            "LIGHT { SOURCE { AZIMUTH 169.9 } }\n",
+        ),
+    ],
+)
+async def test_what_is_missing_or_misplaced(editor: Editor, before: str, title: str, after: str) -> None:
+    await check(editor, before, title, after)
+    errors = [d for d in m3dc.compile(after).diagnostics if d.severity == "error"]
+    assert not errors
+    assert title not in await titles(editor, after[:1] + "$0" + after[1:])
+
+
+async def test_a_second_scene_is_not_made(editor: Editor) -> None:
+    assert await titles(editor, "SCENE { }\nVI$0EW { FOV 5 }\n") == []
 
 
 @pytest.mark.parametrize(
@@ -301,6 +344,13 @@ SOLID
     }
 }
 """
+
+
+async def test_normals_are_computed_for_a_phong_without_effect(editor: Editor) -> None:
+    scene = editor.open(f"{LIGHT}SOLID {{ POLYGONS {{ PH$0ONG {TRIANGLE} FACETS {{ 1 0 1 2 }} }} }}\n")
+    (action,) = [each for each in await actions(editor, scene) if "normals" in each.title]
+    corners = "< 0, 0, 1 > < 0, 0, 1 > < 0, 0, 1 >"
+    assert f"PHONG {TRIANGLE} SFACETS {{ 1 0 1 2 {corners} }}" in await made(editor, scene, action)
 
 
 async def test_normals_are_computed(editor: Editor) -> None:

@@ -1,8 +1,8 @@
 """Code actions: quick fixes for what the compiler finds, and changes of form that keep a scene as it is.
 
 Every fix the compiler knows, one by one or all in the file; declaring a name that is used, removing one that is not;
-allowing a warning here or in the file; moving a block or a value into a variable, and back; sorting a PROFILE; FACETS
-with computed normals. A module an action, each with a function that says what it can do at a place.
+putting what is misplaced into its block; adding a light; allowing a warning here or in the file; moving a block or a
+value into a variable, and back; sorting a PROFILE; FACETS with computed normals. A module an action, each with a function that says what it can do at a place.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from lsprotocol import types
 from ...registry import request
 from ...snapshot import Snapshot
 from ..diagnostics import lsp_diagnostic
-from . import allow, counts, declare, extract, fixes, inline, normals, profile, unused
+from . import allow, counts, declare, extract, fixes, inline, light, normals, profile, unused, wrap
 from .action import Action, Edit, Site
 
 SOURCES: tuple[Callable[[Site], Iterator[Action]], ...] = (
@@ -24,6 +24,8 @@ SOURCES: tuple[Callable[[Site], Iterator[Action]], ...] = (
     unused.find,
     counts.find,
     profile.find,
+    wrap.find,
+    light.find,
     allow.find,
     extract.find,
     inline.find,

@@ -16,9 +16,13 @@ _NUMERAL = re.compile(rb"[^\s<>,{}/]+")
 
 
 def find(site: Site) -> Iterator[Action]:
-    """For a table here of which the number of rows is wrong."""
-    for diagnostic in site.found:
-        if diagnostic.code not in ("M3D0405", "M3D0406"):
+    """For a table here of which the number of rows is wrong, be it that the place is where the rows end, where the
+    number stands, or between them."""
+    table = site.path[-1] if site.path else None
+    about = site.real(table.span) if isinstance(table, ast.Table) else site.span
+    for diagnostic in site.analysis.diagnostics:
+        here = diagnostic in site.found or about[0] <= diagnostic.span[0] < about[1]
+        if diagnostic.code not in ("M3D0405", "M3D0406") or not here:
             continue
         place = site.at(diagnostic.span[0])
         table = place.path[-1] if place.path else None

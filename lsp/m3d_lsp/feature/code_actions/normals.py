@@ -23,6 +23,7 @@ from ...standing import standing
 from .action import Action, Edit, Site
 
 FLAT, SMOOTH, FLAG = "FACETS", "SFACETS", "PHONG"
+NO_EFFECT = "M3D0514"
 SHARP = math.cos(math.radians(60))
 DIGITS = 4
 
@@ -30,14 +31,28 @@ _ROW = re.compile(r"[^\s<>,{}]+\s+[^\s<>,{}]+\s+[^\s<>,{}]+")
 
 
 def find(site: Site) -> Iterator[Action]:
-    """For a table of facets here."""
-    table = site.path[-1] if site.path else None
-    if isinstance(table, ast.Table) and table.keyword.text == FLAT and len(site.path) > 1:
+    """For a table of facets here, or the PHONG that has no effect on one."""
+    table = _table(site)
+    if table is not None:
         record = _record(site, table)
         if record is not None:
             title = f"Write {SMOOTH} with computed normals"
-            kind = types.CodeActionKind.RefactorRewrite
-            yield Action(title, kind, [], later=lambda: [_rewritten(site, table, record)])
+            mends = tuple(d for d in site.found if d.code == NO_EFFECT)
+            kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
+            yield Action(title, kind, [], mends, later=lambda: [_rewritten(site, table, record)])
+
+
+def _table(site: Site) -> ast.Table | None:
+    """The table of facets at the place, or beside the PHONG there."""
+    if len(site.path) < 2:
+        return None
+    item, outer = site.path[-1], site.path[-2]
+    if isinstance(item, ast.Table):
+        return item if item.keyword.text == FLAT else None
+    body = outer.body if isinstance(outer, (ast.Block, ast.Assignment)) else None
+    if not isinstance(item, ast.Statement) or item.keyword.text != FLAG or body is None:
+        return None
+    return next((each for each in body.items if isinstance(each, ast.Table) and each.keyword.text == FLAT), None)
 
 
 def _record(site: Site, table: ast.Table) -> Record | None:

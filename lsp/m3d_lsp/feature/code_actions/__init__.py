@@ -2,7 +2,8 @@
 
 Every fix the compiler knows, one by one or all in the file; declaring a name that is used, removing one that is not;
 putting what is misplaced into its block; adding a light; allowing a warning here or in the file; moving a block or a
-value into a variable, and back; sorting a PROFILE; FACETS with computed normals. A module an action, each with a function that says what it can do at a place.
+value into a variable, and back; sorting a PROFILE; FACETS with computed normals. A module an action, each with a
+function that says what it can do at a place.
 """
 
 from __future__ import annotations

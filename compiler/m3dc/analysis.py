@@ -14,6 +14,7 @@ from tree_sitter import Tree
 
 from . import ast, program
 from .check import check
+from .collection import paused
 from .compiler import Result, has_errors, in_order
 from .diagnostics import Diagnostic, Findings
 from .evaluate import Evaluator, World
@@ -54,7 +55,8 @@ class Analysis:
     @cached_property
     def ir(self) -> SceneIR:
         """The scene's IR, as far as it goes; made when it is first asked for."""
-        return lower(self.world, self.source.name, self.places)
+        with paused():
+            return lower(self.world, self.source.name, self.places)
 
     @property
     def result(self) -> Result:
@@ -71,6 +73,7 @@ class Analyser:
         self._runs = Steps()
         self._lints = Steps()
 
+    @paused()
     def analyse(self, source: Source) -> Analysis:
         """All about a text: the same, whatever was analysed before. Never raises on any text."""
         findings = Findings()

@@ -270,7 +270,8 @@ CATALOGUE: dict[str, Entry] = {
     ),
     "M3D0412": _error(
         "Too many {}",
-        "A temperature profile has at most 200 points, a texture at most 20 colour ranges.",
+        "A temperature profile has at most 200 points, a texture at most 20 colour ranges. A scene has at most 2 million "
+        "solids, primitives and textures, and 20 million vertices and facets, each copy counted.",
         "SCENE { MIRAGE { PROFILE { " + " ".join(f"{i / 10:.1f} 10" for i in range(201)) + " } } }",
         "SCENE { MIRAGE { PROFILE { " + " ".join(f"{i / 10:.1f} 10" for i in range(200)) + " } } }",
     ),

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from difflib import get_close_matches
 from functools import partial
 from typing import NamedTuple
 
@@ -22,6 +21,7 @@ from .cut import cut
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
 from .memo import Ledger, Steps
+from .near import Words
 from .source import Source
 from .spelling import is_certain, nearest
 from .syntax import with_digits
@@ -69,6 +69,8 @@ class Checker:
         self._names = names
         self._start = 0
         self.known: Ledger[Known] = Ledger()
+        self._words = Words(())
+        self._words_known = 0
 
     def item(self, top: ast.TopLevel) -> program.Content | None:
         """One top-level item; None where nothing of it can be used."""
@@ -151,14 +153,22 @@ class Checker:
     def _variables_known(self) -> Iterator[tuple[str, Known]]:
         return ((name, known) for name, known in self.known.items() if name not in LANGUAGE.keywords)
 
+    def _near(self, name: str) -> str | None:
+        """The variable that a name was probably meant to be."""
+        entries = self.known.items()
+        if len(self.known) != self._words_known:  # names are only ever added
+            self._words_known = len(self.known)
+            self._words = Words(other for other, _ in entries if other not in LANGUAGE.keywords)
+        return self._words.nearest(name)
+
     def _lookup(self, name: ast.Name) -> Known | None:
         """What is known of a variable; reports an undeclared name."""
         known = self.known.get(name.text)
         if known is None:
-            near = get_close_matches(name.text, [other for other, _ in self._variables_known()], 1, 0.7)
-            if near:
-                detail = f"{name.text} is not declared before here; did you mean {near[0]}?"
-                fix = Fix(f"Replace with {near[0]}", name.span, near[0])  # or it is a name that is yet to be declared
+            near = self._near(name.text)
+            if near is not None:
+                detail = f"{name.text} is not declared before here; did you mean {near}?"
+                fix = Fix(f"Replace with {near}", name.span, near)  # or it is a name that is yet to be declared
             else:
                 detail, fix = f"{name.text} is not declared in a VARIABLES block before here", None
             self._findings.add("M3D0202", name.span, detail, fix=fix)

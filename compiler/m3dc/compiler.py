@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from .check import check
+from .collection import paused
 from .diagnostics import Diagnostic, Findings
 from .directives import without_allowed
 from .evaluate import Evaluator
@@ -35,6 +36,7 @@ class Result(NamedTuple):
         return result_html(self)
 
 
+@paused()
 def compile(source: str | bytes | Source, name: str = "") -> Result:
     """Compile a scene. Never raises on any text; `name` is what to call it in the IR and in messages."""
     if not isinstance(source, Source):

@@ -23,6 +23,7 @@ from .finish import FINISH
 from .ir import Span
 from .memo import Ledger, Steps
 from .reach import check_reach
+from .size import Size
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
 from .values import Record, TableValue, Value, Vector, spelled
 
@@ -48,12 +49,15 @@ class Made(NamedTuple):
 
 class World(NamedTuple):
     """All that a scene adds up to. The lights are in the order they were made, the sky's sun among them; `made` is what
-    each item of the program added, in file order."""
+    each item of the program added, in file order. A scene that is too large has no solids and no lights."""
 
     scene: Record
     solids: tuple[Record, ...]
     lights: tuple[Record, ...]
     made: tuple[Made, ...]
+
+
+_NOTHING = Made(None, None, (), ())
 
 
 def value_at_first(type_: str, span: Span) -> Value:
@@ -84,18 +88,34 @@ class Evaluator:
         """
         self._memory = steps
         made: list[Made] = []
+        size = Size()
         for item in items:
+            content = item.content
             self._findings.base = item.base
+            if size.excess is not None and isinstance(content, program.Block) and content.entry.keyword != "SCENE":
+                made.append(_NOTHING)  # there is no memory for more
+                continue
             before = len(self._findings.found)
-            made.append(self._once(item.base, item.content, partial(self._item, item.content)))
+            step = self._once(item.base, content, partial(self._item, content))
+            made.append(step)
             if item.start in faulty:
                 del self._findings.found[before:]
+            if size.excess is not None:
+                continue
+            for thing in (*step.solids, *step.lights):
+                size = size.plus(thing)
+            if size.excess is not None:
+                assert isinstance(content, program.Block)
+                what, detail = size.excess
+                self._findings.add("M3D0412", content.span, detail, fill=what)
+                made[-1] = _NOTHING
         self._findings.base = 0
         scene = next((step.scene for step in made if step.scene is not None), None)
+        fitting = made if size.excess is None else []
         return World(
             scene or Record("SCENE", (0, 0)),
-            tuple(solid for step in made for solid in step.solids),
-            tuple(light for step in made for light in step.lights),
+            tuple(solid for step in fitting for solid in step.solids),
+            tuple(light for step in fitting for light in step.lights),
             tuple(made),
         )
 
@@ -160,14 +180,18 @@ class Evaluator:
         if record.block == "TRANSFORM":
             self._transform(record, self._steps(record.transform, members))
             return
+        added: list[Record] = []  # put to the others at once: a block may have very many
         for member in members:
             match member:
                 case program.Statement():
                     self._statement(record, member)
                 case program.Table():
                     self._table(record, member)
+                case program.Block() if member.entry.adds:
+                    added.append(self._once(member.span, member, partial(self._whole, member)))
                 case program.Block():
                     self._nested(record, member)
+        record.parts += tuple(added)
 
     def _nested(self, record: Record, block: program.Block) -> None:
         keyword = block.entry.keyword
@@ -185,8 +209,6 @@ class Evaluator:
                 record.broken |= source.broken & {"TRANSFORM"}
             steps = partial(self._steps, start, block.body)
             self._transform(record, self._once(block.span, block, steps) if start is IDENTITY else steps())
-        elif block.entry.adds:
-            record.parts += (self._once(block.span, block, partial(self._whole, block)),)
         else:
             nested = record.nested.get(keyword)
             if nested is None or block.source is not None:

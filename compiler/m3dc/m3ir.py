@@ -30,6 +30,7 @@ VERSION = 2
 
 # A header says what a scene says once, and a file's name.
 LONGEST_HEADER = 1 << 20
+LONGEST_SHOWN = 120
 
 
 class FormatError(ValueError):
@@ -71,7 +72,13 @@ def read(path: Path) -> ir.SceneIR:
 
 
 def _damaged(what: str) -> NoReturn:
-    raise FormatError(f"it is damaged: {what}")
+    raise FormatError(f"it is damaged: {_shown(what)}")
+
+
+def _shown(what: object) -> str:
+    """Something of a file, in a message: short, and without control characters."""
+    text = "".join(character if character.isprintable() else "?" for character in str(what)[: LONGEST_SHOWN + 1])
+    return text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "..."
 
 
 # --- the archive --------------------------------------------------------------------------------------------------
@@ -152,7 +159,8 @@ def _header(archive: _Archive) -> dict[str, Any]:
         _damaged("version is not a whole number")
     if version != VERSION:
         raise FormatError(
-            f"its format version is {version}, this program reads version {VERSION}; compile the scene again with m3dc"
+            f"its format version is {_shown(version)}, this program reads version {VERSION}; "
+            "compile the scene again with m3dc"
         )
     return header
 

@@ -66,6 +66,10 @@ class Ledger(Generic[V]):
     def __setitem__(self, name: str, entry: V) -> None:
         self._notes.written[name] = self._entries[name] = entry
 
+    def __len__(self) -> int:
+        """How many entries there are: of no note, because what is read of them is."""
+        return len(self._entries)
+
     def items(self) -> Iterator[tuple[str, V]]:
         """All entries, in the order they were made."""
         self._notes.everything = True

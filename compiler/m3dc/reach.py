@@ -28,6 +28,8 @@ def check_reach(record: Record, findings: Findings) -> None:
     parent = record.transform
     size = _size(parent)
     for part in record.parts:
+        if part.transform is IDENTITY and size < _HARMLESS:
+            continue
         if "TRANSFORM" in record.broken | part.broken or size * _size(part.transform) < _HARMLESS:
             continue
         transform = part.transform.then(parent)

@@ -6,11 +6,15 @@ else the token is passed over, so that a mistake further up does not hide what m
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from .comments import blank_comments
 from .formal import END, automaton, tokens
 from .table import LANGUAGE
+
+# What is meant as a numeral, though it lacks a digit or has a letter too many.
+_BROKEN_NUMERAL = re.compile(r"[+-]?\.?[0-9]")
 
 
 class Token(NamedTuple):
@@ -45,15 +49,16 @@ class Prefix(NamedTuple):
     `expected` are the terminals that could stand next, as in a SyntaxFault; none where what is open is no block of
     the language, or in a comment. `opened` are the open braces from the outermost inwards. `member` are the tokens of
     what was begun and may go on: a statement with its arguments so far, a declaration, an assignment, or, in a table,
-    all that it holds.
+    all that it holds. `instead` are the terminals that could stand next if that had not been begun.
     """
 
     expected: frozenset[str]
     opened: tuple[Opened, ...]
     member: tuple[Token, ...]
+    instead: frozenset[str]
 
 
-NOTHING = Prefix(frozenset(), (), ())
+NOTHING = Prefix(frozenset(), (), (), frozenset())
 
 
 def read_prefix(text: str) -> Prefix:
@@ -64,6 +69,8 @@ def read_prefix(text: str) -> Prefix:
         if terminal == END:
             break
         token = Token(blanked[offset : offset + length], terminal, offset)
+        if not terminal and _BROKEN_NUMERAL.match(token.text):
+            token = token._replace(terminal="NUMERAL")
         if token.text == "/*":
             return NOTHING
         reader.take(token)
@@ -80,14 +87,20 @@ class _Reader:
         self._before = [0]  # the stack when the member was begun
         self._opened: list[Opened] = []
         self._member: list[Token] = []
+        self._last: Token | None = None
 
     def prefix(self) -> Prefix:
         known = not (self._opened and self._opened[-1].start is None)
         expected = self._machine.accepts(self._stack) if known else frozenset[str]()
-        return Prefix(expected, tuple(self._opened), tuple(self._member))
+        instead = self._machine.accepts(self._before) if known else frozenset[str]()
+        return Prefix(expected, tuple(self._opened), tuple(self._member), instead)
 
     def take(self, token: Token) -> None:
         """Go on by one token, whether it fits or not."""
+        self._take(token)
+        self._last = token
+
+    def _take(self, token: Token) -> None:
         if self._opened and self._opened[-1].start is None and not self._starts_anew(token):
             self._in_the_unknown(token)
             return
@@ -98,6 +111,9 @@ class _Reader:
             after = self._machine.feed(stack, token.terminal)
             if after is not None:
                 self._member = []
+        if after is None and token.terminal == "LBRACE" and self._in_small_letters():
+            stack = self._stack
+            after = self._machine.feed(stack, token.terminal)
         if after is None and self._starts_anew(token):
             self._restart()
             stack = self._stack
@@ -107,6 +123,19 @@ class _Reader:
                 self._opened.append(Opened(None))
             return
         self._go_on(token, stack, after)
+
+    def _in_small_letters(self) -> bool:
+        """Whether the last token is a keyword but for its letters; it is read as that, if it fits so."""
+        last = self._last
+        if last is None or last.terminal != "IDENTIFIER" or last.text.upper() not in LANGUAGE.keywords:
+            return False
+        keyword = last._replace(text=last.text.upper(), terminal=last.text.upper())
+        after = self._machine.feed(self._before, keyword.terminal)
+        if after is None:
+            return False
+        self._member = []
+        self._go_on(keyword, self._before, after)
+        return True
 
     def _go_on(self, token: Token, stack: list[int], after: list[int]) -> None:
         match token.terminal:

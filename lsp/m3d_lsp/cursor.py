@@ -22,8 +22,9 @@ from .text import Span
 
 # What begins an item: nothing else stands at the top level, and these stand nowhere else, but for SOLID and LIGHT as
 # types of variables.
-_ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b[A-Za-z]\w*\s*=")
-_COMPLETE = re.compile(rf"\b(?:{'|'.join(sorted(LANGUAGE.keywords))})\b\s*(?:[A-Za-z]\w*\s*)?\{{[^{{}}]*\}}")
+_KEYWORDS = "|".join(sorted(LANGUAGE.keywords))
+_ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b(?!(?:{_KEYWORDS})\b)[A-Za-z]\w*\s*=")
+_COMPLETE = re.compile(rf"\b(?:{_KEYWORDS})\b\s*(?:[A-Za-z]\w*\s*)?\{{[^{{}}]*\}}")
 _OPEN_TABLE = re.compile(r"\{[^{}A-DF-Za-df-z]{500,}\Z")
 _NUMBER = re.compile(r"[^\s<>,{]+")
 _REST = re.compile(rb"[A-Za-z0-9_.]*")
@@ -77,6 +78,11 @@ def read(snapshot: Snapshot, offset: int) -> Cursor:
     block = _block(snapshot, prefix)
     entry = _entry(prefix, block)
     return Cursor(prefix, (start, offset), block, entry, _slot(prefix, entry))
+
+
+def instead(place: Cursor) -> Cursor:
+    """The same place, were what was begun there not begun."""
+    return place._replace(prefix=place.prefix._replace(expected=place.prefix.instead, member=()), entry=None, slot=None)
 
 
 def word_end(snapshot: Snapshot, offset: int) -> int:
@@ -140,12 +146,17 @@ def _last_item(text: str) -> int | None:
     starts = list(_ITEM.finditer(text))
     for number in range(len(starts) - 1, -1, -1):
         match = starts[number]
-        if match[0] not in LANGUAGE.types:
+        is_target = match[0].endswith("=")
+        if match[0] not in LANGUAGE.types and not is_target:
             return match.start()
-        # Is it a type among declarations? They hold no brace.
+        if is_target and match[0][:-1].rstrip().upper() in LANGUAGE.keywords:
+            continue
+        # Is it a type, or a name with a value, among declarations? They hold no brace.
         opening = text.rfind("{", 0, match.start())
         closing = text.rfind("}", 0, match.start())
         if opening < 0 and closing < 0:
+            if is_target:
+                return match.start()
             continue
         if closing > opening or not text[:opening].rstrip().endswith("VARIABLES"):
             return match.start()

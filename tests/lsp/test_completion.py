@@ -24,6 +24,10 @@ sand = < 0.8, 0.7, 0.5 >
 """
 
 
+SPHERE = LANGUAGE.blocks["SPHERE"]
+RADIUS = SPHERE.statements["RADIUS"]
+
+
 async def complete(editor: Editor, scene: Scene, typed: str | None = None) -> list[types.CompletionItem]:
     context = None
     if typed is not None:
@@ -46,7 +50,12 @@ def filled_in(item: types.CompletionItem, scene: Scene) -> str:
     assert isinstance(edit, types.InsertReplaceEdit)
     lines = scene.text.splitlines(keepends=True)
     start, end = (sum(map(len, lines[: p.line])) + p.character for p in (edit.replace.start, edit.replace.end))
-    return scene.text[:start] + re.sub(r"\$\{\d+[:|]([^},]*)[^}]*\}|\$\d", r"\1", edit.new_text) + scene.text[end:]
+    return scene.text[:start] + default(edit.new_text) + scene.text[end:]
+
+
+def default(snippet: str) -> str:
+    """What a snippet is when its values are left as they are."""
+    return re.sub(r"\$\{\d+[:|]([^},]*)[^}]*\}|\$\d", r"\1", snippet)
 
 
 async def test_members_of_a_block(editor: Editor) -> None:
@@ -120,15 +129,15 @@ async def proposal(editor: Editor, marked: str, label: str) -> tuple[types.Compl
         (
             "SOLID { SPHERE { RA$0\nCENTER < 0, 0, 1 > } }",
             "RADIUS",
-            "SOLID { SPHERE { RADIUS 5\nCENTER < 0, 0, 1 > } }",
+            "SOLID { SPHERE { {RADIUS}\nCENTER < 0, 0, 1 > } }",
         ),
-        ("ball = { RA$0 }\nlittle = 2", "RADIUS", "ball = { RADIUS 5 }\nlittle = 2"),
+        ("ball = { RA$0 }\nlittle = 2", "RADIUS", "ball = { {RADIUS} }\nlittle = 2"),
         ("lit$0\nlittle = 2", "little", "little = \nlittle = 2"),
     ],
 )
 async def test_what_is_there_is_not_written_again(editor: Editor, text: str, word: str, after: str) -> None:
     item, scene = await proposal(editor, text, word)
-    assert filled_in(item, scene) == HEAD + after
+    assert filled_in(item, scene) == HEAD + after.replace("{RADIUS}", default(snippets.statement(RADIUS, SPHERE)))
 
 
 async def test_no_vector_is_put_before_one(editor: Editor) -> None:
@@ -162,7 +171,7 @@ async def test_what_may_not_be_there_twice_comes_last(editor: Editor) -> None:
     ("text", "after"),
     [
         ("SOLID $0", None),
-        ("SOLID { SPHERE $0 }", "SOLID { SPHERE { CENTER < 1, 2, 3 > RADIUS 5  } }"),
+        ("SOLID { SPHERE $0 }", f"SOLID {{ {default(snippets.of_block(SPHERE))} }}"),
         ("SOLID { SPHERE ball $0 }", "SOLID { SPHERE ball {  } }"),
         ("SCENE { MIRAGE { PROFILE $0 } }", None),
         ("VARIABLES $0", None),
@@ -198,6 +207,37 @@ async def test_after_half_of_every_word(editor: Editor, name: str) -> None:
         rest = text[word.end() :] if number % 2 else ""
         items = await complete(editor, editor.open(declared + text[:half] + "$0" + rest))
         assert word[0] in {item.label for item in items}, text[max(half - 80, 0) : half]
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("// x\nSOL$0", "SOLID"),
+        ("#declare x = 1;\nSOLID { SPH$0", "SPHERE"),
+        ("solid { sph$0", "SPHERE"),
+        ("solid {\n  sphere {\n    rad$0", "RADIUS"),
+        ("SOLID { SPHERE { radius 2 } SUR$0", "SURFACE"),
+        ("SOLID { SPHERE { COLOR < 1, 0, 0 > RAD$0", "RADIUS"),
+        ("SOLID { SPHERE { RADIUS = 2 CEN$0", "CENTER"),
+        ("SOLID { SPHERE { RADIUS: 2 CEN$0", "CENTER"),
+        ("SOLID { SPHERE { RADIUS 2; CEN$0", "CENTER"),
+        ("SOLID { SPHERE { RADIUS 2*3 CEN$0", "CENTER"),
+        ("SOLID { SPHERE { RADIUS 1. CEN$0", "CENTER"),
+        ("SOLID { SPHERE { RADIUS CEN$0", "CENTER"),
+        ("SOLID { SPHERE { CENTER < 1 2 3 > RAD$0", "RADIUS"),
+        ("SOLID { SPHERE { CENTER 1, 2, 3 RAD$0", "RADIUS"),
+        ("SCENE { VIEW { FROM (1, 2, 3) FO$0", "FOV"),
+        ("SCENE { MIRAGE { PROFILE { 0 10, 1 11 } ELE$0", "ELEVATION"),
+        ("SOLID { SPHERE { RADIUS { 5 } CEN$0", "CENTER"),
+        ("SOLID { SPHERE { } } } SOL$0", "SOLID"),
+        ("VARIABLES { NUMBER x = 1; VEC$0", "VECTOR"),
+        ("VARIABLES { NUMBER x VEC$0", "VECTOR"),
+        ("little = 2;\nSOL$0", "SOLID"),
+        ("little 2\nSOL$0", "SOLID"),
+    ],
+)
+async def test_half_a_word_behind_a_mistake(editor: Editor, text: str, word: str) -> None:
+    assert word in {item.label for item in await complete(editor, editor.open(text))}
 
 
 async def test_nothing_where_nothing_is_wanted(editor: Editor) -> None:

@@ -57,6 +57,9 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.Comp
     # A number that is being typed is complete as it is.
     begins = typed[:1].isalpha() or not typed
     items = list(_proposals(snapshot, place)) if begins and _is_asked_for(place, params.context) else []
+    if typed and begins and not any(_fits(item, typed) for item in items):
+        # What was begun can not go on so: another member may begin here.
+        items += [item for item in _proposals(snapshot, cursor.instead(place)) if _fits(item, typed)]
     insert, replace = snapshot.range(place.word), snapshot.range((place.word[0], _word_end(snapshot, place)))
     for item in items:
         text = item.insert_text or item.label
@@ -64,6 +67,11 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.Comp
         item.text_edit = types.InsertReplaceEdit(text, insert, replace) if both else types.TextEdit(insert, text)
         item.insert_text = None
     return types.CompletionList(is_incomplete=False, items=items)
+
+
+def _fits(item: types.CompletionItem, typed: bytes) -> bool:
+    """Whether a proposal begins with what is typed, whatever its letters."""
+    return (item.filter_text or item.label).casefold().startswith(typed.decode("ascii", "replace").casefold())
 
 
 def _is_asked_for(place: Cursor, context: types.CompletionContext | None) -> bool:

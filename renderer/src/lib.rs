@@ -20,3 +20,4 @@ pub mod shape;
 pub mod supersampling;
 pub mod texture;
 pub mod trace;
+pub mod within;

@@ -1,12 +1,15 @@
 """The curves of eye rays, against an independent integration of the equation of the ray."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 from scipy.integrate import solve_ivp
 
+import m3d_render
+import m3dc
 from m3d_render import SceneError
 from m3d_render.optics import air_layers, trace_crossings, trace_paths
 
@@ -144,3 +147,61 @@ def test_what_cannot_be_traced_is_said():
         trace_paths(merman_air(), [0.0], eye_height=20.0)
     with pytest.raises(SceneError, match=r"above -273\.15"):
         trace_paths(SceneBuilder(eye=(0, 0, 1)).mirage([(0, 0), (2, -300), (4, 0)]).build(), [0.0])
+
+
+# Level rays
+
+
+SCENES = Path(__file__).parent / "scenes"
+
+
+def test_a_level_ray_on_a_boundary_is_where_its_neighbours_are():
+    """The eye is at 30 m, where an inversion begins: below it rays bend up, above it down."""
+    ir = m3dc.compile((SCENES / "level-on-a-boundary.m3d").read_bytes()).ir
+    minutes = [1e-4, 1e-6, 1e-9, 0.0, -1e-9, -1e-6, -1e-4]
+    paths = trace_paths(ir, np.radians(minutes) / 60, at=[1000, 50_000])
+    np.testing.assert_allclose(paths.heights, 30.0, atol=1e-6)
+    assert paths.ends[1:-1].tolist() == ["range"] * 5
+    assert paths.end_points[3].tolist() == [150_000, 30]
+    rows = m3d_render.render(ir).argmax(axis=2)[46:55]
+    assert (rows == rows[0]).all()
+    assert rows[0].any() or rows[0, 0] == 0
+
+
+def with_an_air_of(*profile):
+    return SceneBuilder(eye=(0, 0, 30), target=(1000, 0, 30), fov=0.5, width=5, height=5).mirage(
+        profile, segments=100_000, distance=40_000
+    )
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [
+        [(-40, 8.5), (30, 8), (38, 9.5), (400, 7.2)],  # held
+        [(-40, 8.5), (30, 8), (400, 0)],  # up on both sides
+        [(-40, -8.5), (30, 8), (400, 80)],  # down on both sides
+    ],
+)
+@pytest.mark.parametrize("make", ["box", "ball", "floor", "plate", "plane"])
+def test_a_level_ray_on_a_boundary_meets_what_its_neighbours_meet(profile, make):
+    depths = []
+    for moved in (0.0, 1e-7, -1e-7):
+        scene = with_an_air_of(*profile)
+        row = scene.solid()
+        if make == "ball":
+            scene.sphere((20_000, 0, 30), 5, row)
+        elif make == "plane":
+            scene.plane([(20_000, 0, 0), (20_000, 1, 0), (20_000, 0, 1)], row)
+        elif make == "plate":
+            scene.rectangle([(20_000, -9, 40), (20_000, -9, 20), (20_000, 9, 20)], row)
+        else:
+            # A box whose top, or bottom, is at the boundary.
+            low, high = (30, 60) if make == "floor" else (0, 30)
+            corners = [(x, y, z) for x in (20_000, 20_500) for y in (-900, 900) for z in (low, high)]
+            quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+            scene.mesh(corners, [half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))], row)
+        view = scene.scene.view
+        scene.set(view=view._replace(eye=(0.0, 0.0, 30 + moved)))
+        depths.append(m3d_render.prepare(scene.build()).render(aov=["depth"]).layers["depth"][2, 2])
+    level, above, below = depths
+    assert level in (pytest.approx(above, abs=0.5), pytest.approx(below, abs=0.5)), depths

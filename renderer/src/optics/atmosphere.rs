@@ -17,6 +17,13 @@ pub const EARTH_RADIUS: f64 = 6_371_000.0;
 /// 0 °C in K.
 const CELSIUS: f64 = 273.15;
 
+/// A curve has no more arcs than this, whatever MIRAGE says of SEGMENTS: it keeps its arcs.
+pub const MOST_ARCS: usize = 1_000_000;
+/// A curvature beyond this, 1/m, is nonsense, and may overflow.
+const MOST_CURVATURE: f64 = 1e12;
+/// There are no more layers than this.
+const MOST_LAYERS: usize = 4_000_000;
+
 /// One layer. Inside it a ray is the parabola z = `half_bend` r² + r tan φ + z₀ (thesis eq. 2.4), so that slope² grows
 /// by 4 A_p for each metre of height. The gains are what it has grown by since the lowest layer's bottom: slope² less
 /// the gain is the same all along a ray, through all layers.
@@ -144,6 +151,11 @@ impl Atmosphere {
         let profile_top = points[points.len() - 1].0;
         let ceiling = limits.elevation.min(profile_top);
         let finer = finer.max(1);
+        if (points.len() - 1).saturating_mul(finer) > MOST_LAYERS {
+            return Err(format!(
+                "{finer} layers an interval of the profile are more than {MOST_LAYERS} in all"
+            ));
+        }
         let mut layers = Vec::with_capacity((points.len() - 1) * finer);
         for pair in points.windows(2) {
             let [(z0, t0), (z1, t1)] = [pair[0], pair[1]];
@@ -157,7 +169,7 @@ impl Atmosphere {
                 let middle = 0.5 * (bottom + top);
                 let bend = ray_curvature(gradient, profile.pressure(middle), profile.temperature(middle))
                     - 1.0 / EARTH_RADIUS;
-                if !bend.is_finite() {
+                if bend.is_nan() || bend.abs() > MOST_CURVATURE {
                     return Err(format!("the atmosphere at elevation {middle} has no finite curvature"));
                 }
                 layers.push((bottom, top.min(ceiling), -0.5 * bend));
@@ -166,7 +178,7 @@ impl Atmosphere {
         Ok(Self {
             layers: Layer::stack(layers),
             profile_top,
-            segments: limits.segments,
+            segments: limits.segments.min(MOST_ARCS),
             distance: limits.distance,
         })
     }

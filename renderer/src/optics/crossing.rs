@@ -11,6 +11,7 @@ use super::tip::HeightRange;
 use crate::shape::Segment;
 use crate::shape::plane::Line;
 use crate::shape::sphere::Circle;
+use crate::within::within;
 
 /// Coefficients of q(s) = a s² + b s + c.
 #[derive(Clone, Copy)]
@@ -67,7 +68,7 @@ impl Quadratic {
     /// The root left of the turning point.
     fn root_before(&self, from: f64, turn: f64) -> f64 {
         let spread = (self.b * self.b - 4.0 * self.a * self.c).max(0.0).sqrt() / (2.0 * self.a).abs();
-        (turn - spread).clamp(from, turn)
+        within(turn - spread, from, turn)
     }
 
     /// The one root where the ends have different signs.
@@ -81,7 +82,7 @@ impl Quadratic {
             let (first, second) = (outside(one), outside(other));
             let best = if first.is_nan() || second < first { other } else { one };
             if best.is_finite() {
-                return best.clamp(from, to);
+                return within(best, from, to);
             }
         }
         from + (to - from) * (value_from / (value_from - value_to))
@@ -230,7 +231,7 @@ fn arc_meets_segment(
     } else {
         q.first_root(from, to, value_from, value_to)?
     };
-    Some((start.x + s * step.x).clamp(arc.r0, arc.r1))
+    Some(within(start.x + s * step.x, arc.r0, arc.r1))
 }
 
 /// Where the curve first enters a circle, or leaves the one it starts in.
@@ -310,8 +311,11 @@ impl Quartic {
         self
     }
 
-    /// Smallest x in from..to at which the polynomial is zero or less.
+    /// Smallest x in from..to at which the polynomial is zero or less; None where `to` lies before `from`.
     fn first_at_most_zero(&self, from: f64, to: f64) -> Option<f64> {
+        if from > to {
+            return None;
+        }
         let k = &self.coefficients;
         let value = |x: f64| (((k[4] * x + k[3]) * x + k[2]) * x + k[1]) * x + k[0];
         if value(from) <= 0.0 {
@@ -320,8 +324,8 @@ impl Quartic {
         let slope = |x: f64| ((4.0 * k[4] * x + 3.0 * k[3]) * x + 2.0 * k[2]) * x + k[1];
         let second = |x: f64| (12.0 * k[4] * x + 6.0 * k[3]) * x + 2.0 * k[2];
         let lowest = Quadratic { a: 12.0 * k[4], b: 6.0 * k[3], c: 2.0 * k[2] };
-        let turn = (-lowest.b / (2.0 * lowest.a)).clamp(from, to);
-        let convex = second(from) > 0.0 && second(to) > 0.0 && (turn.is_nan() || second(turn) > 0.0);
+        let turn = within(lowest.turn(), from, to);
+        let convex = second(from) > 0.0 && second(to) > 0.0 && second(turn) > 0.0;
         if convex {
             return descend(value, slope, from, to);
         }

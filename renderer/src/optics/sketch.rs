@@ -1,6 +1,6 @@
 //! A curve as the boxes of the tree see it: in f32, four boxes at a time, and never narrower than it is.
 
-use wide::{CmpGe, CmpGt, CmpLe, f32x4};
+use wide::{CmpGt, CmpLe, CmpLt, f32x4};
 
 use super::arc::Arc;
 use super::atmosphere::Atmosphere;
@@ -48,8 +48,9 @@ pub struct Band {
 
 impl Band {
     pub fn new(bends: &Bends, z: f64, slope: f64) -> Self {
-        // Sixteen roundings, where evaluation makes five; and what the arcs themselves lose in f64.
-        let slack = |x: f64| x.abs() * 2f64.powi(-20) + 1e-9;
+        // Sixteen roundings, where evaluation makes five; and what the arcs themselves lose in f64, and on a boundary
+        // that holds them.
+        let slack = |x: f64| x.abs() * 2f64.powi(-20) + 4e-9;
         let side = |sign: f64, half_bend: f64| {
             [half_bend * (1.0 + 2f64.powi(-20)), slope + sign * slack(slope), z + sign * slack(z)]
                 .map(|x| f32x4::splat(x as f32))
@@ -71,7 +72,8 @@ impl Band {
         let (lower, upper) = (height(below, far), height(above, far));
         let bottom = height(below, near).fast_min(lower).fast_max(self.bottom);
         let top = height(above, near).fast_max(upper).fast_min(self.top);
-        let passed = bottom.simd_le(high) & top.simd_ge(low);
+        // What has overflowed to no number misses nothing.
+        let passed = !(bottom.simd_gt(high) | top.simd_lt(low));
         (passed, passed & (upper - lower).simd_gt(high - low))
     }
 }
@@ -130,6 +132,6 @@ impl ArcSketch {
         }
         let error = f32x4::splat(self.error);
         let (bottom, top) = (bottom - error, top + error);
-        near.simd_le(far) & bottom.simd_le(high) & top.simd_ge(low)
+        near.simd_le(far) & !(bottom.simd_gt(high) | top.simd_lt(low))
     }
 }

@@ -7,6 +7,11 @@ use wide::{CmpGt, f64x2};
 
 use super::arc::Arc;
 use super::atmosphere::{Atmosphere, Layer};
+use crate::within::within;
+
+/// A ray that no more than this, in metres, leads away from a boundary to either side is level on it: less than a
+/// wavelength of light, where rays have lost their meaning.
+const GIVE: f64 = 1e-9;
 
 /// Why a curve ended: what the straight ray along its last tangent starts from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -113,7 +118,7 @@ impl Tip {
                 return;
             }
             if self.end.is_none() && self.arcs < air.segments {
-                let arc = self.step(air);
+                let arc = if self.is_held(air) { self.run_level(air) } else { self.step(air) };
                 self.arcs += 1;
                 if !visit(self.arcs - 1, arc) {
                     return;
@@ -189,15 +194,19 @@ impl Tip {
         wants_more
     }
 
-    /// Chooses the layer beyond the boundary below layer `above`, by the ray's slope, or by the way it bends where
-    /// it is level.
+    /// Chooses the layer beyond the boundary below layer `above`, by the ray's slope. Where it is level it goes the way
+    /// that it bends in the layer above, or in the uppermost layer, above which it would go straight: its neighbours
+    /// do the same, but where it bends away from the boundary to both sides, and they part. There it counts as above.
     #[inline]
     fn cross(&mut self, air: &Atmosphere, above: usize) {
         let layers = &air.layers;
         let upward = if self.slope != 0.0 {
             self.slope > 0.0
         } else {
-            layers.get(above).is_some_and(|layer| layer.half_bend >= 0.0)
+            match layers.get(above) {
+                Some(layer) => layer.half_bend >= 0.0,
+                None => layers.last().is_none_or(|layer| layer.half_bend > 0.0),
+            }
         };
         if upward {
             if above == layers.len() {
@@ -212,12 +221,40 @@ impl Tip {
         }
     }
 
+    /// Whether the ray is on a boundary that it cannot leave: so nearly level that the layers on both sides, which bend
+    /// it back, keep it within `GIVE`. It would cross the boundary over and over, the oftener the more level it is.
+    #[inline]
+    fn is_held(&self, air: &Atmosphere) -> bool {
+        let layer = &air.layers[self.layer];
+        let (below, above) = if self.z == layer.bottom {
+            (self.layer.wrapping_sub(1), self.layer)
+        } else if self.z == layer.top {
+            (self.layer, self.layer + 1)
+        } else {
+            return false;
+        };
+        let (Some(below), Some(above)) = (air.layers.get(below), air.layers.get(above)) else {
+            return false;
+        };
+        // slope² = 4 |A_p| times the height at which the ray turns.
+        let holds = |bend: f64, height: f64| 4.0 * bend * height.min(GIVE);
+        let most = holds(below.half_bend, below.height).min(holds(-above.half_bend, above.height));
+        self.slope * self.slope <= most
+    }
+
+    /// The arc along the boundary, from here to the limit.
+    fn run_level(&mut self, air: &Atmosphere) -> Arc {
+        let (r0, z, r1) = (self.r, self.z, air.distance.max(self.r));
+        (self.r, self.slope, self.end) = (r1, 0.0, Some(End::Range));
+        Arc { r0, r1, z0: z, z1: z, slope: 0.0, half_bend: 0.0, apex: z }
+    }
+
     /// The arc from here to the next layer boundary, of a curve that has not ended.
     #[inline(always)]
     fn step(&mut self, air: &Atmosphere) -> Arc {
         let layer = air.layers[self.layer];
         let (a, m, z) = (layer.half_bend, self.slope, self.z);
-        // HeightRange are counted toward `ahead`, the boundary the ray points at; `bend` is positive toward it.
+        // Heights are counted toward `ahead`, the boundary the ray points at; `bend` is positive toward it.
         let rising = m > 0.0 || (m == 0.0 && a > 0.0);
         let (ahead, gain_ahead, gain_behind, bend, steep) = if rising {
             (layer.top - z, layer.gain_at_top, layer.gain_at_bottom, a, m)
@@ -242,13 +279,13 @@ impl Tip {
         if !in_range {
             arc.r1 = f64::INFINITY;
             let r1 = air.distance.max(self.r);
-            arc.z1 = arc.height(r1).clamp(layer.bottom, layer.top);
+            arc.z1 = within(arc.height(r1), layer.bottom, layer.top);
             arc.r1 = r1;
             arc.apex = arc.z1;
             slope = arc.slope_at(r1);
         }
         if m * slope < 0.0 {
-            arc.apex = (z - 0.25 * m * m / a).clamp(layer.bottom, layer.top);
+            arc.apex = within(z - 0.25 * m * m / a, layer.bottom, layer.top);
         }
         (self.r, self.z, self.slope) = (arc.r1, arc.z1, slope);
         if in_range {

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-TARGETS = ("text", "wireframe", "m3ir", "protocol")
+TARGETS = ("text", "wireframe", "m3ir", "protocol", "kernel")
 
 # After so many failures a target ends: more of them seldom say more.
 MOST_FAILURES = 10

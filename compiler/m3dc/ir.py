@@ -296,8 +296,9 @@ class Mirage(NamedTuple):
 class View(NamedTuple):
     """The pin-hole camera (VIEW; thesis 3.2). `normal`, `right` and `up` are unit vectors.
 
-    Pixel (x, y), from the top left, looks through
-    reference_point + (2u - 1) right + (1 - 2v) (height / width) aspect up, u = x/(width-1), v = y/(height-1).
+    Pixel (x, y), from the top left, looks along
+    distance normal + (2u - 1) right + (1 - 2v) (height / width) aspect up, u = x/(width-1), v = y/(height-1).
+    The reference point is eye + distance normal; far from the origin rounding takes its digits.
     """
 
     eye: Place

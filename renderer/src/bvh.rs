@@ -17,7 +17,10 @@ use wide::f32x4;
 use crate::ray::{Ray, ShapeId};
 
 /// Beyond this, f32 arithmetic on boxes may overflow: such shapes are tested one by one.
-const LARGEST_COORDINATE: f64 = 1e18;
+const LARGEST_COORDINATE: f64 = 1e17;
+
+/// Rays from farther away than this are tested against every shape: their slabs may overflow.
+const FARTHEST_ORIGIN: f64 = 1e24;
 
 /// Four boxes, by coordinate: x of the low sides, x of the high sides, then y and z.
 #[derive(Clone, Copy, Debug)]
@@ -190,9 +193,18 @@ impl Bvh {
         start > f64::from(self.top) && ray.direction.z >= 0.0
     }
 
+    /// Whether the slabs of a ray from here hold numbers, so that it can be taken through the tree.
+    #[inline]
+    pub fn sees(&self, origin: DVec3) -> bool {
+        origin.abs().cmple(DVec3::splat(FARTHEST_ORIGIN)).all()
+    }
+
     /// Constants of the slab test along one axis.
-    pub fn slab(&self, axis: usize, origin: f64, direction: f64) -> Slab {
-        Slab::new(origin, direction, f64::from(self.reach[axis]))
+    #[inline]
+    pub fn slab(&self, axis: usize, origin: DVec3, direction: f64) -> Slab {
+        // No box is farther away.
+        let farthest = || (0..3).map(|axis| origin[axis].abs() + f64::from(self.reach[axis])).sum();
+        Slab::new(origin[axis], direction, f64::from(self.reach[axis]), farthest)
     }
 
     /// Takes a ray through the tree, nearest boxes first. `stack` is working memory, kept between walks.
@@ -299,16 +311,19 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// A direction flatter than this is tested as if it were this; over the size of any scene that moves a ray by
-    /// less than the widening does.
+    /// A direction flatter than this is tested as if it were this, and the slab widened by what that moves a ray.
     const FLATTEST: f64 = 1e-12;
 
-    fn new(origin: f64, direction: f64, reach: f64) -> Self {
-        let direction =
-            if direction.abs() < Self::FLATTEST { Self::FLATTEST.copysign(direction) } else { direction };
+    #[inline]
+    fn new(origin: f64, direction: f64, reach: f64, farthest: impl FnOnce() -> f64) -> Self {
+        let (direction, moved) = if direction.abs() < Self::FLATTEST {
+            (Self::FLATTEST.copysign(direction), 2.0 * Self::FLATTEST * farthest())
+        } else {
+            (direction, 0.0)
+        };
         let inverse = 1.0 / direction;
         let offset = origin * inverse;
-        let error = (origin.abs() + reach) * inverse.abs() * 2f64.powi(-21);
+        let error = ((origin.abs() + reach) * 2f64.powi(-21) + moved) * inverse.abs();
         Self {
             inverse: f32x4::splat(inverse as f32),
             near_offset: f32x4::splat((offset + error) as f32),

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-/// Viewing geometry: eye O, view reference point VRP, and the unit vectors VR (right) and VUP (up).
+/// Viewing geometry: eye O, the way from it to the view reference point VRP, and the unit vectors VR (right) and VUP
+/// (up). The way, and not the point: far from the origin their difference would have lost its digits.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     pub eye: DVec3,
-    pub reference_point: DVec3,
+    pub ahead: DVec3,
     pub right: DVec3,
     pub up: DVec3,
     pub aspect: f64,
@@ -27,12 +28,12 @@ impl Camera {
         let share = |i: f64, n: usize| if n > 1 { i / (n - 1) as f64 } else { 0.5 + i };
         let (u, v) = (share(x, size.width), share(y, size.height));
         let upright = size.height as f64 / size.width as f64 * self.aspect;
-        let point = self.reference_point + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * upright * self.up;
-        (point - self.eye).normalize_or_zero()
+        let way = self.ahead + (2.0 * u - 1.0) * self.right + (1.0 - 2.0 * v) * upright * self.up;
+        way.normalize_or_zero()
     }
 
     /// How far a point lies from the eye along the direction of view.
     pub fn depth(&self, point: DVec3) -> f64 {
-        (point - self.eye).dot((self.reference_point - self.eye).normalize_or_zero())
+        (point - self.eye).dot(self.ahead.normalize_or_zero())
     }
 }

@@ -66,7 +66,7 @@ impl Layer {
                 uv.map_or([-1.0, -1.0, 0.0], |(u, v)| [u, v, 0.0])
             }
             Layer::Path => {
-                let length = if met.is_some() { sight.arrival.travelled() } else { f64::INFINITY };
+                let length = if met.is_some() { sight.arrival.length() } else { f64::INFINITY };
                 [length, sight.arcs as f64, 0.0]
             }
         };

@@ -58,6 +58,12 @@ impl Ray {
         Self { origin, direction, from: 0.0, to: f64::INFINITY, leaves: None }
     }
 
+    /// Whether it starts somewhere and leads somewhere.
+    #[inline]
+    pub fn is_finite(&self) -> bool {
+        self.origin.is_finite() && self.direction.is_finite()
+    }
+
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
     }

@@ -87,11 +87,26 @@ impl Tally {
     }
 }
 
-/// What a ray came upon.
+/// How far a ray has come.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct Way {
+    /// As rounding grows with it: of a curve its horizontal part.
+    pub rough: f64,
+    /// Along the ray, as light goes; of a curve no more than `rough` where nobody asks for it.
+    pub length: f64,
+}
+
+impl Way {
+    fn and(self, further: f64) -> Self {
+        Self { rough: self.rough + further, length: self.length + further }
+    }
+}
+
+/// What a ray came upon. One that meets nothing goes on straight from the origin.
 #[derive(Clone, Copy, Debug)]
 pub enum Arrival {
-    Shape { shape: ShapeId, point: DVec3, direction: DVec3, travelled: f64 },
-    Nothing { origin: DVec3, direction: DVec3, travelled: f64 },
+    Shape { shape: ShapeId, point: DVec3, direction: DVec3, way: Way },
+    Nothing { origin: DVec3, direction: DVec3, way: Way },
 }
 
 impl Arrival {
@@ -103,9 +118,10 @@ impl Arrival {
         }
     }
 
-    pub fn travelled(&self) -> f64 {
-        match *self {
-            Arrival::Shape { travelled, .. } | Arrival::Nothing { travelled, .. } => travelled,
+    /// How far the ray has come along its curve.
+    pub fn length(&self) -> f64 {
+        match self {
+            Arrival::Shape { way, .. } | Arrival::Nothing { way, .. } => way.length,
         }
     }
 }
@@ -156,7 +172,7 @@ impl<'a> Tracer<'a> {
             settings,
             filter,
             cancelled,
-            path: air.map(Path::new),
+            path: air.map(|air| Path::stopped_by(air, cancelled)),
             stack: Vec::with_capacity(256),
             measures_length: scene.haze.density > 0.0 || settings.layers.contains(&Layer::Path),
             tally: Tally::default(),
@@ -218,12 +234,12 @@ impl<'a> Tracer<'a> {
     fn follow(&mut self, ray: Ray, bent: Option<f64>) -> Sight {
         match bent {
             Some(horizontal) => self.curve(ray, horizontal),
-            None => Sight { arrival: self.straight(ray, 0.0), arcs: 0 },
+            None => Sight { arrival: self.straight(ray, Way::default()), arcs: 0 },
         }
     }
 
     /// Follows a straight ray that has come some way before its origin.
-    fn straight(&mut self, mut ray: Ray, before: f64) -> Arrival {
+    fn straight(&mut self, mut ray: Ray, before: Way) -> Arrival {
         let scene = self.scene;
         let mut hit = nearest(&scene.shapes, &scene.solid_tree, &ray, &mut self.stack);
         if let Some(solid) = hit {
@@ -234,9 +250,9 @@ impl<'a> Tracer<'a> {
         }
         match hit {
             Some(Hit { t, shape }) => {
-                Arrival::Shape { shape, point: ray.at(t), direction: ray.direction, travelled: before + t }
+                Arrival::Shape { shape, point: ray.at(t), direction: ray.direction, way: before.and(t) }
             }
-            None => Arrival::Nothing { origin: ray.origin, direction: ray.direction, travelled: before },
+            None => Arrival::Nothing { origin: ray.origin, direction: ray.direction, way: before },
         }
     }
 
@@ -247,7 +263,7 @@ impl<'a> Tracer<'a> {
         let radial = DVec2::new(start.direction.x, start.direction.y) / horizontal;
         let plane = RadialPlane { origin: start.origin, radial };
         let Some(path) = self.path.as_mut() else {
-            return Sight { arrival: self.straight(start, 0.0), arcs: 0 };
+            return Sight { arrival: self.straight(start, Way::default()), arcs: 0 };
         };
         path.start_near(start.origin.z, slope, start.from);
         let departure = Departure { from: start.from * horizontal, leaves: start.leaves };
@@ -273,13 +289,13 @@ impl<'a> Tracer<'a> {
                 shape,
                 point: plane.point(r, arc.height(r)),
                 direction: tangent.normalize(),
-                travelled: if measures_length { path.length_to(r) } else { r },
+                way: Way { rough: r, length: if measures_length { path.length_to(r) } else { r } },
             };
             return Sight { arrival, arcs };
         }
         let Tip { r, z, slope, arcs, .. } = path.end_tip();
         self.tally.arcs += arcs as u64;
-        let travelled = if measures_length { path.length_to(r) } else { 0.0 };
+        let way = Way { rough: r, length: if measures_length { path.length_to(r) } else { r } };
         let tangent = DVec3::new(radial.x, radial.y, slope);
         let mut ray = Ray::new(plane.point(r, z), tangent.normalize());
         if r > departure.from {
@@ -288,7 +304,7 @@ impl<'a> Tracer<'a> {
         } else {
             ray = start;
         }
-        Sight { arrival: self.straight(ray, travelled), arcs }
+        Sight { arrival: self.straight(ray, way), arcs }
     }
 
     /// The colour that a ray brings back, with those of the mirror rays behind it: eq. 3.9.
@@ -299,13 +315,13 @@ impl<'a> Tracer<'a> {
         let mut share = 1.0;
         let mut arrival = first;
         loop {
-            let (shape, point, direction, travelled) = match arrival {
-                Arrival::Nothing { origin, direction, travelled } => {
-                    return sum + share * self.nothing(origin, direction, travelled);
+            let (shape, point, direction, way) = match arrival {
+                Arrival::Nothing { origin, direction, way } => {
+                    return sum + share * self.nothing(origin, direction, way.length);
                 }
-                Arrival::Shape { shape, point, direction, travelled } => (shape, point, direction, travelled),
+                Arrival::Shape { shape, point, direction, way } => (shape, point, direction, way),
             };
-            let clear = haze.transmits(travelled);
+            let clear = haze.transmits(way.length);
             sum += share * (1.0 - clear) * haze.color;
             share *= clear;
             let solid = match scene.shapes.part(shape).owner {
@@ -333,7 +349,7 @@ impl<'a> Tracer<'a> {
                 normal = roughened(&mut errand.place.child(FUZZ).numbers(), normal, solid.surface.fuzz);
             }
             let lit = LitPoint { surface: &solid.surface, diffuse, normal, toward_viewer: -direction };
-            let from = clearance(point, travelled);
+            let from = clearance(point, way.rough);
             let start = Ray { from, leaves: Some(shape), ..Ray::new(point, direction) };
             let brings = errand.share * share * lit.surface.diffuse * lit.diffuse.max_element();
             sum += share
@@ -368,7 +384,7 @@ impl<'a> Tracer<'a> {
             arrival = if self.settings.refract_reflections {
                 self.follow(ray, self.bent_part(&ray)).arrival
             } else {
-                self.straight(ray, 0.0)
+                self.straight(ray, Way::default())
             };
         }
     }
@@ -407,8 +423,10 @@ impl<'a> Tracer<'a> {
             self.tally.ambient += 1;
             let ray = Ray { direction, ..*start };
             let arrival = match nearest(&scene.shapes, &scene.solid_tree, &ray, &mut self.stack) {
-                Some(Hit { t, shape }) => Arrival::Shape { shape, point: ray.at(t), direction, travelled: t },
-                None => Arrival::Nothing { origin: ray.origin, direction, travelled: 0.0 },
+                Some(Hit { t, shape }) => {
+                    Arrival::Shape { shape, point: ray.at(t), direction, way: Way::default().and(t) }
+                }
+                None => Arrival::Nothing { origin: ray.origin, direction, way: Way::default() },
             };
             let (level, scattered) = (errand.level + 1, errand.scattered + 1);
             let errand = Errand { level, scattered, share: share * cosine, place };
@@ -427,6 +445,9 @@ impl<'a> Tracer<'a> {
             if cosine.is_nan() || cosine <= 0.0 {
                 continue;
             }
+            if self.is_cancelled() {
+                break;
+            }
             if self.settings.shadows && light.shadows {
                 self.tally.shadow += 1;
                 let ray = Ray { direction: incident.toward, to: incident.distance, ..*start };
@@ -440,13 +461,13 @@ impl<'a> Tracer<'a> {
     }
 
     /// The colour where a ray meets nothing.
-    fn nothing(&self, origin: DVec3, direction: DVec3, travelled: f64) -> DVec3 {
+    fn nothing(&self, origin: DVec3, direction: DVec3, length: f64) -> DVec3 {
         match &self.scene.background {
             Background::Plain(color) => *color,
             Background::Sky(sky) => {
                 let seen = sky.seen_along(origin, direction);
                 let color = sky.color(seen.direction);
-                self.scene.haze.over_sky(color, travelled + seen.distance, seen.direction.z)
+                self.scene.haze.over_sky(color, length + seen.distance, seen.direction.z)
             }
         }
     }

@@ -1,5 +1,7 @@
 //! A scene as the renderer has it: its shapes in trees, whom each belongs to, and what is said once.
 
+use std::collections::TryReserveError;
+
 use glam::DVec3;
 
 use crate::bvh::{Bvh, Gathering};
@@ -67,7 +69,19 @@ pub struct Normals {
     pub shading: DVec3,
 }
 
+/// What the trees over so many facets and other shapes take at most, in bytes a shape: their items and nodes, and the
+/// leaves they are built from.
+const TREE_BYTES: usize = 256;
+
 impl Shapes {
+    /// Room for so many facets, and for all else that as many of them and of other shapes will take; an error where that
+    /// is more memory than there is.
+    pub fn reserve(&mut self, others: usize, facets: usize) -> Result<(), TryReserveError> {
+        self.facets.try_reserve_exact(facets)?;
+        self.vertices.try_reserve(3 * others)?;
+        Vec::<[u8; TREE_BYTES]>::new().try_reserve_exact(others + facets)
+    }
+
     pub fn push_sphere(&mut self, sphere: Sphere, part: Part) {
         self.spheres.push((sphere, part));
     }
@@ -93,7 +107,6 @@ impl Shapes {
     /// Facets by their corners in `vertices`, and the corners' normals in `normals`.
     pub fn push_facets(&mut self, facets: impl Iterator<Item = ([u32; 3], Option<[u32; 3]>)>, part: Part) {
         self.runs.push(Run { first_facet: self.facets.len(), part });
-        self.facets.reserve(facets.size_hint().0);
         for (corners, normals) in facets {
             if let Some(normals) = normals {
                 self.facet_normals.resize(self.facets.len(), FLAT);

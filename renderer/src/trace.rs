@@ -85,7 +85,11 @@ fn walk(tree: &Bvh, ray: &Ray, search: &mut impl Search, stack: &mut Vec<Visit>)
     ) {
         tree.walk(&mut Straight::<S, OCTANT> { search, slabs, from }, stack);
     }
-    let slabs = &[0, 1, 2].map(|axis| tree.slab(axis, ray.origin[axis], ray.direction[axis]));
+    if !tree.sees(ray.origin) {
+        tree.items().iter().any(|item| search.test(item.shape, item.corners));
+        return;
+    }
+    let slabs = &[0, 1, 2].map(|axis| tree.slab(axis, ray.origin, ray.direction[axis]));
     let from = (ray.from as f32).next_down();
     match [0, 1, 2].map(|axis| slabs[axis].near_side) {
         [0, 0, 0] => within::<_, 0>(tree, slabs, from, search, stack),
@@ -132,7 +136,7 @@ impl Search for Nearest<'_> {
 /// The first shape of a tree along a straight ray.
 #[inline]
 pub fn nearest(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
-    if tree.is_empty() { None } else { nearest_of_any(shapes, tree, ray, stack) }
+    if tree.is_empty() || !ray.is_finite() { None } else { nearest_of_any(shapes, tree, ray, stack) }
 }
 
 fn nearest_of_any(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
@@ -169,6 +173,9 @@ impl Search for Blocker<'_> {
 
 /// Whether a shape of the tree lies on the ray before its end.
 pub fn blocked(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> bool {
+    if !ray.is_finite() {
+        return false;
+    }
     let mut blocker = Blocker { shapes, ray: *ray, limit: at_least(ray.to), found: false };
     if tree.unbounded.iter().any(|&shape| blocker.test(shape, shapes.corners_of(shape))) {
         return true;
@@ -205,6 +212,9 @@ impl Curved<'_, '_, '_> {
     /// The first shape of a tree.
     fn first_of(mut self, tree: &Bvh, stack: &mut Vec<Visit>) -> Option<(Hit, Crossing)> {
         match self.slabs.map(|slab| slab.near_side) {
+            _ if !tree.sees(self.plane.origin) => {
+                tree.items().iter().for_each(|item| self.try_shape(item.shape, item.corners));
+            }
             [0, 0] => tree.walk(&mut Walking::<0>(&mut self), stack),
             [1, 0] => tree.walk(&mut Walking::<1>(&mut self), stack),
             [0, _] => tree.walk(&mut Walking::<2>(&mut self), stack),
@@ -297,17 +307,17 @@ pub fn nearest_on_curve(
     limit: f64,
     stack: &mut Vec<Visit>,
 ) -> Option<(Hit, Crossing)> {
-    if tree.is_empty() {
+    let (origin, DVec2 { x, y }) = (plane.origin, plane.radial);
+    if tree.is_empty() || !origin.is_finite() {
         return None;
     }
-    let (origin, DVec2 { x, y }) = (plane.origin, plane.radial);
     let reach = path.reach();
     let curved = Curved {
         shapes,
         plane: *plane,
         path,
         departure: *departure,
-        slabs: [tree.slab(0, origin.x, x), tree.slab(1, origin.y, y)],
+        slabs: [tree.slab(0, origin, x), tree.slab(1, origin, y)],
         to: limit,
         limit: at_least(limit).min(reach),
         arc: 0,
@@ -316,9 +326,14 @@ pub fn nearest_on_curve(
     curved.first_of(tree, stack)
 }
 
+/// How well a point of a surface is known that a ray has met after this way: well above the rounding of its numbers.
+pub fn uncertainty(point: DVec3, travelled: f64) -> f64 {
+    1e-13 * (point.abs().max_element() + travelled)
+}
+
 /// How far from a surface a ray that starts on it begins to look for others: well above the rounding of the start.
 pub fn clearance(point: DVec3, travelled: f64) -> f64 {
-    1e-10 * (point.abs().max_element() + travelled.min(1e12))
+    1e-10 * (point.abs().max_element() + travelled)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ import pytest
 from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, from_sun, merman, unit
 
 import m3d_render
-from m3dc.ir import Ambient, Haze, LightKind, TextureKind
+from m3dc.ir import TABLES, Ambient, Haze, LightKind, TextureKind
 
 EARTH, EPSILON, BETA, GRAVITY = 6_371_000.0, 226e-6, 3.48e-3, 9.80665
 
@@ -519,9 +519,8 @@ def test_progress_and_cancel():
 # Input that makes no sense
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e20, 1e300, -1e38, 5e-324, 0.0])
-@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
-def test_garbage_geometry_is_survived(value):
+def garbage(value):
+    """Something of every kind with a value among its numbers."""
     scene = merman(24, 16)
     owner = scene.solid(color=(1, 1, 1))
     scene.sphere((value, 0, 0), 1, owner)
@@ -534,17 +533,70 @@ def test_garbage_geometry_is_survived(value):
                normals=[(value, 0, 0)] * 3)  # fmt: skip
     scene.light(kind=LightKind.POINT, position=(value, 0, 0), attenuation=value, exponent=value)
     scene.light(direction=(value, 0, 0))
+    return scene
+
+
+@pytest.mark.parametrize("value", [1e20, -1e38, 1e75, 5e-324, 0.0])
+def test_garbage_geometry_is_survived(value):
     for straight in (True, False):
-        picture = render(scene, straight=straight, shadows=True)
+        picture = render(garbage(value), straight=straight, shadows=True)
         assert np.all((picture >= 0) & (picture <= 1))
 
 
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e76, 1e300])
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
+def test_geometry_beyond_arithmetic_is_refused(value):
+    """In words, where it stands: left out of the picture nobody would miss it."""
+    with pytest.raises(m3d_render.SceneError, match="finite" if not math.isfinite(value) else "up to 1e75"):
+        render(garbage(value))
+
+
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e300])
-def test_garbage_views_are_survived(value):
+def test_views_beyond_arithmetic_are_refused(value):
     scene = merman(8, 8)
-    for name in ("right", "reference_point"):
+    for name in ("right", "normal"):
         broken = scene.scene.view._replace(**{name: (value, 0.0, 0.0)})
-        render(scene.set(view=broken))
+        with pytest.raises(m3d_render.SceneError, match=name):
+            render(scene.set(view=broken))
+
+
+def numbers_of(ir):
+    """Every column of numbers that has a row."""
+    return [
+        (table, column)
+        for table, columns in TABLES.items()
+        for column, (dtype, *_) in columns.items()
+        if dtype == "f8" and len(ir[table][column])
+    ]
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_any_number_that_is_none_is_refused_or_not_used(value):
+    """What the renderer reads is checked when it is read."""
+    unused = {"normal", "transform"}
+    ir = merman(6, 4).build()
+    for table, column in numbers_of(ir):
+        broken = copy.deepcopy(ir)
+        broken[table][column][0] = value
+        try:
+            m3d_render.prepare(broken)
+        except m3d_render.SceneError as refused:
+            assert "finite" in str(refused) or "more than" in str(refused), (table, column)  # noqa: PT017
+        else:
+            allowed = column in unused or table in ("solids", "lights", "primitives") or column == "beckmann"
+            assert allowed, (table, column)
+            picture = m3d_render.render(broken)
+            assert np.all((picture >= 0) & (picture <= 1))
+
+
+def test_rows_that_belong_to_more_than_one_are_refused():
+    """A small file could make endless work of them."""
+    scene = SceneBuilder()
+    row = scene.solid()
+    scene.mesh([(0, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2)] * 3, row)
+    scene.rows["primitives"] *= 2
+    with pytest.raises(m3d_render.SceneError, match="rows of facets belong to more than one"):
+        render(scene)
 
 
 def test_a_damaged_ir_is_refused():
@@ -557,6 +609,8 @@ def test_a_damaged_ir_is_refused():
         ("surfaces", "texture_count", 1000),
         ("textures", "kind", 17),
         ("textures", "wave_count", 3),
+        ("textures", "wave_count", 2**31 - 1),
+        ("surfaces", "first_texture", 2**31 - 1),
     ]:
         broken = copy.deepcopy(ir)
         broken[table][column][0] = value

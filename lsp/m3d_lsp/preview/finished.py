@@ -91,8 +91,8 @@ class Finished:
         v = y / (height - 1) if height > 1 else 0.5
         upright = height / width * view.aspect
         right, up = np.array(view.right), np.array(view.up)
-        point = np.array(view.reference_point) + (2 * u - 1) * right + (1 - 2 * v) * upright * up
-        return point - np.array(view.eye)
+        ahead = view.distance * np.array(view.normal)
+        return ahead + (2 * u - 1) * right + (1 - 2 * v) * upright * up
 
     def _bent(self, slope: float) -> tuple[list[tuple[float, float]], str]:
         angle = math.atan(slope)

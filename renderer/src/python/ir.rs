@@ -1,18 +1,20 @@
 //! Reads the scene IR (`m3dc.ir.SceneIR`) into the kernel's own scene.
 //!
-//! Nothing of it is trusted: a table that is missing, of the wrong type, or names rows that do not exist is a
-//! ValueError, so that a damaged file can do no more than that.
+//! Nothing of it is trusted: a table that is missing, of the wrong type, names rows that do not exist, or holds what is
+//! no finite number is a ValueError, and so is one that names rows of another more than once; what does not fit in
+//! memory is a MemoryError. So a damaged file can do no more than that, and the rest of the kernel relies on it.
 
 use std::ops::Range;
 
 use glam::{DMat4, DVec3};
 use numpy::{Element, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAnyMethods;
 
 use crate::camera::Camera;
 use crate::optics::atmosphere::{Atmosphere, Limits};
+use crate::ray::ShapeId;
 use crate::scene::{Ambient, Background, Owner, Part, Scene, Shapes, Solid};
 use crate::shade::haze::Haze;
 use crate::shade::highlight::Gloss;
@@ -44,6 +46,64 @@ fn damaged(what: String) -> PyErr {
     PyValueError::new_err(format!("damaged scene: {what}"))
 }
 
+/// A shape may reach so far from the origin, in any direction. Beyond, the fourth power of a coordinate, which facets
+/// and rectangles take, is no longer a number.
+const FARTHEST: f64 = 1e75;
+
+const TOO_LARGE: &str = "the scene does not fit in memory";
+
+/// A profile may have so many points.
+const MOST_POINTS: usize = 10_000;
+
+/// An empty vector with room for so many.
+fn room<T>(count: usize) -> PyResult<Vec<T>> {
+    let mut made = Vec::new();
+    made.try_reserve_exact(count).map_err(|_| PyMemoryError::new_err(TOO_LARGE))?;
+    Ok(made)
+}
+
+/// A coordinate, or a length.
+fn place(value: f64, what: impl FnOnce() -> String) -> PyResult<f64> {
+    if !value.is_finite() {
+        Err(damaged(format!("{} is not a finite number", what())))
+    } else if value.abs() > FARTHEST {
+        let what = what();
+        Err(PyValueError::new_err(format!("{what} is {value:e}: up to {FARTHEST:e} can be rendered")))
+    } else {
+        Ok(value)
+    }
+}
+
+/// Rows of a table of which each belongs to one row of another at most.
+struct Owned {
+    what: &'static str,
+    length: usize,
+    taken: usize,
+}
+
+impl Owned {
+    fn new(what: &'static str, length: usize) -> Self {
+        Self { what, length, taken: 0 }
+    }
+
+    /// Rows `first`..`first + count`.
+    fn take(&mut self, first: i32, count: i32) -> PyResult<Range<usize>> {
+        let (what, length) = (self.what, self.length);
+        let range = usize::try_from(first).ok().zip(usize::try_from(count).ok());
+        let Some((first, count)) = range.filter(|(first, count)| first + count <= length) else {
+            return Err(damaged(format!(
+                "{what} {first} to {} do not exist",
+                i64::from(first) + i64::from(count)
+            )));
+        };
+        self.taken += count;
+        if self.taken > length {
+            return Err(damaged(format!("some rows of {what} belong to more than one")));
+        }
+        Ok(first..first + count)
+    }
+}
+
 /// One table of the IR.
 struct Table<'py> {
     name: &'static str,
@@ -67,7 +127,22 @@ impl<'py> Table<'py> {
 
     fn plain<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Vec<T>> {
         let array: PyReadonlyArray1<T> = self.column(column)?;
-        Ok(array.as_array().iter().copied().collect())
+        let mut values = room(array.as_array().len())?;
+        values.extend(array.as_array().iter().copied());
+        Ok(values)
+    }
+
+    /// A column of finite numbers.
+    fn numbers(&self, column: &str) -> PyResult<Vec<f64>> {
+        let values = self.plain(column)?;
+        match values.iter().position(|value: &f64| !value.is_finite()) {
+            Some(row) => Err(self.not_finite(column, row)),
+            None => Ok(values),
+        }
+    }
+
+    fn not_finite(&self, column: &str, row: usize) -> PyErr {
+        damaged(format!("{}.{column}, row {row}, is not a finite number", self.name))
     }
 
     fn threes<T: Element + Copy + 'static>(&self, column: &str) -> PyResult<Threes<'py, T>> {
@@ -78,9 +153,25 @@ impl<'py> Table<'py> {
         Ok(Threes(array))
     }
 
+    /// A column of finite vectors.
     fn vectors(&self, column: &str) -> PyResult<Vec<DVec3>> {
         let threes = self.threes::<f64>(column)?;
-        Ok((0..threes.len()).map(|row| DVec3::from(threes.row(row))).collect())
+        let mut values = room(threes.len())?;
+        values.extend((0..threes.len()).map(|row| DVec3::from(threes.row(row))));
+        match values.iter().position(|value: &DVec3| !value.is_finite()) {
+            Some(row) => Err(self.not_finite(column, row)),
+            None => Ok(values),
+        }
+    }
+
+    /// A column of vectors within reach.
+    fn places(&self, column: &str) -> PyResult<Vec<DVec3>> {
+        let values = self.vectors(column)?;
+        let largest = |value: &DVec3| value.abs().max_element();
+        if let Some(row) = values.iter().position(|value| largest(value) > FARTHEST) {
+            place(largest(&values[row]), || format!("{}.{column}, row {row},", self.name))?;
+        }
+        Ok(values)
     }
 
     /// Matrices that act on row vectors become ones that act on columns, as glam has them.
@@ -115,22 +206,20 @@ impl<T: Element + Copy> Threes<'_, T> {
     }
 }
 
-/// Rows `first`..`first + count` of a table of `length` rows.
-fn rows(what: &str, first: i32, count: i32, length: usize) -> PyResult<Range<usize>> {
-    let range = usize::try_from(first).ok().zip(usize::try_from(count).ok());
-    match range {
-        Some((first, count)) if first + count <= length => Ok(first..first + count),
-        _ => Err(damaged(format!("{what} {first} to {} do not exist", i64::from(first) + i64::from(count)))),
-    }
-}
-
 fn vector(of: &Bound<PyAny>, name: &str) -> PyResult<DVec3> {
     let (x, y, z): (f64, f64, f64) = of.getattr(name)?.extract()?;
-    Ok(DVec3::new(x, y, z))
+    let vector = DVec3::new(x, y, z);
+    if vector.is_finite() { Ok(vector) } else { Err(damaged(format!("{name} is not finite"))) }
+}
+
+fn position(of: &Bound<PyAny>, name: &str) -> PyResult<DVec3> {
+    let vector = vector(of, name)?;
+    place(vector.abs().max_element(), || format!("the view's {name}")).map(|_| vector)
 }
 
 fn number(of: &Bound<PyAny>, name: &str) -> PyResult<f64> {
-    of.getattr(name)?.extract()
+    let value: f64 = of.getattr(name)?.extract()?;
+    if value.is_finite() { Ok(value) } else { Err(damaged(format!("{name} is not finite"))) }
 }
 
 /// A whole number; one below 0 counts as 0.
@@ -144,10 +233,10 @@ pub fn scene(ir: &Bound<PyAny>) -> PyResult<Scene> {
     let said = ir.getattr("scene")?;
     let view = said.getattr("view")?;
     let camera = Camera {
-        eye: vector(&view, "eye")?,
-        reference_point: vector(&view, "reference_point")?,
-        right: vector(&view, "right")?,
-        up: vector(&view, "up")?,
+        eye: position(&view, "eye")?,
+        ahead: number(&view, "distance")? * position(&view, "normal")?,
+        right: position(&view, "right")?,
+        up: position(&view, "up")?,
         aspect: number(&view, "aspect")?,
     };
     let ambient = said.getattr("ambient")?;
@@ -205,9 +294,9 @@ fn background(
 fn lights(ir: &Bound<PyAny>) -> PyResult<Vec<Light>> {
     let table = Table::of(ir, "lights")?;
     let kind: Vec<i32> = table.plain("kind")?;
-    let (color, intensity) = (table.vectors("color")?, table.plain("intensity")?);
-    let (attenuation, exponent) = (table.plain("attenuation")?, table.plain("exponent")?);
-    let angle: Vec<f64> = table.plain("angle")?;
+    let (color, intensity) = (table.vectors("color")?, table.numbers("intensity")?);
+    let (attenuation, exponent) = (table.numbers("attenuation")?, table.numbers("exponent")?);
+    let angle = table.numbers("angle")?;
     let (position, direction) = (table.vectors("position")?, table.vectors("direction")?);
     let (shadows, highlights) = (table.plain("shadows")?, table.plain("highlights")?);
     (0..kind.len())
@@ -238,18 +327,20 @@ fn lights(ir: &Bound<PyAny>) -> PyResult<Vec<Light>> {
 fn solids(ir: &Bound<PyAny>) -> PyResult<Vec<Solid>> {
     let object_inverse = Table::of(ir, "solids")?.matrices("inverse")?;
     let (textures, heights) = (textures(ir)?, heights(ir)?);
+    let mut owned = Owned::new("textures", textures.len());
     let table = Table::of(ir, "surfaces")?;
     let color = table.vectors("color")?;
-    let plain = |column| table.plain::<f64>(column);
-    let (ambient, diffuse, specular) = (plain("ambient")?, plain("diffuse")?, plain("specular")?);
-    let (refindex, rough, hard) = (plain("refindex")?, plain("rough")?, plain("hard")?);
-    let (metallic, fresnel, beckmann) = (plain("metallic")?, plain("fresnel")?, plain("beckmann")?);
-    let fuzz = plain("fuzz")?;
+    let numbers = |column| table.numbers(column);
+    let (ambient, diffuse, specular) = (numbers("ambient")?, numbers("diffuse")?, numbers("specular")?);
+    let (refindex, rough, hard) = (numbers("refindex")?, numbers("rough")?, numbers("hard")?);
+    let (metallic, fresnel, fuzz) = (numbers("metallic")?, numbers("fresnel")?, numbers("fuzz")?);
+    // Infinite where ROUGH is 0.
+    let beckmann: Vec<f64> = table.plain("beckmann")?;
     let first: Vec<i32> = table.plain("first_texture")?;
     let count: Vec<i32> = table.plain("texture_count")?;
     (0..object_inverse.len())
         .map(|i| {
-            let used = rows("textures", *table.entry(&first, i)?, *table.entry(&count, i)?, textures.len())?;
+            let used = owned.take(*table.entry(&first, i)?, *table.entry(&count, i)?)?;
             Ok(Solid {
                 surface: Surface {
                     color: *table.entry(&color, i)?,
@@ -293,7 +384,11 @@ impl TextureRow {
     /// The texture on an object. World to texture space is the inverse object matrix where LOCAL, then the
     /// texture's own inverse.
     fn on(&self, object_inverse: DMat4, heights: Option<Heights>) -> PyResult<Texture> {
-        let placement = Placement::new(if self.local { self.inverse * object_inverse } else { self.inverse });
+        let to_texture = if self.local { self.inverse * object_inverse } else { self.inverse };
+        if !to_texture.is_finite() {
+            return Err(damaged("the matrix of a texture is not finite".into()));
+        }
+        let placement = Placement::new(to_texture);
         let (tint, turbulence, squeeze, scale) =
             (self.tint.clone(), self.turbulence, self.squeeze, self.scale);
         let waves = &self.waves;
@@ -326,7 +421,7 @@ impl TextureRow {
 
 fn color_ranges(ir: &Bound<PyAny>) -> PyResult<Vec<ColorRange>> {
     let table = Table::of(ir, "color_ranges")?;
-    let (start, end): (Vec<f64>, Vec<f64>) = (table.plain("start")?, table.plain("end")?);
+    let (start, end): (Vec<f64>, Vec<f64>) = (table.numbers("start")?, table.numbers("end")?);
     let (start_color, end_color) = (table.vectors("start_color")?, table.vectors("end_color")?);
     (0..start.len())
         .map(|i| {
@@ -343,8 +438,8 @@ fn color_ranges(ir: &Bound<PyAny>) -> PyResult<Vec<ColorRange>> {
 fn waves(ir: &Bound<PyAny>) -> PyResult<Vec<Wave>> {
     let table = Table::of(ir, "waves")?;
     let center = table.vectors("center")?;
-    let (amplitude, freq) = (table.plain("amplitude")?, table.plain("freq")?);
-    let (phase, damp) = (table.plain("phase")?, table.plain("damp")?);
+    let (amplitude, freq) = (table.numbers("amplitude")?, table.numbers("freq")?);
+    let (phase, damp) = (table.numbers("phase")?, table.numbers("damp")?);
     (0..center.len())
         .map(|i| {
             Ok(Wave {
@@ -364,19 +459,21 @@ fn textures(ir: &Bound<PyAny>) -> PyResult<Vec<TextureRow>> {
     let kind: Vec<i32> = table.plain("kind")?;
     let local: Vec<bool> = table.plain("local")?;
     let (color, inverse) = (table.vectors("color")?, table.matrices("inverse")?);
-    let plain = |column| table.plain::<f64>(column);
-    let (turbulence, squeeze, scale) = (plain("turbulence")?, plain("squeeze")?, plain("scale")?);
-    let (slope, elevation) = (plain("slope")?, plain("elevation")?);
+    let numbers = |column| table.numbers(column);
+    let (turbulence, squeeze, scale) = (numbers("turbulence")?, numbers("squeeze")?, numbers("scale")?);
+    let (slope, elevation) = (numbers("slope")?, numbers("elevation")?);
     let counts = |column| table.plain::<i32>(column);
     let (first_range, range_count) = (counts("first_color_range")?, counts("color_range_count")?);
     let (first_wave, wave_count) = (counts("first_wave")?, counts("wave_count")?);
+    let mut owned_ranges = Owned::new("color_ranges", ranges.len());
+    let mut owned_waves = Owned::new("waves", waves.len());
     (0..kind.len())
         .map(|i| {
-            let part = |what, first: &[i32], count: &[i32], length| {
-                rows(what, *table.entry(first, i)?, *table.entry(count, i)?, length)
+            let part = |owned: &mut Owned, first: &[i32], count: &[i32]| {
+                owned.take(*table.entry(first, i)?, *table.entry(count, i)?)
             };
-            let used_ranges = part("color_ranges", &first_range, &range_count, ranges.len())?;
-            let used_waves = part("waves", &first_wave, &wave_count, waves.len())?;
+            let used_ranges = part(&mut owned_ranges, &first_range, &range_count)?;
+            let used_waves = part(&mut owned_waves, &first_wave, &wave_count)?;
             Ok(TextureRow {
                 kind: kind[i],
                 local: *table.entry(&local, i)?,
@@ -413,7 +510,7 @@ struct Planar<'py> {
 impl<'py> Planar<'py> {
     fn of(ir: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
         let table = Table::of(ir, name)?;
-        let (point, u, v) = (table.vectors("point")?, table.vectors("u")?, table.vectors("v")?);
+        let (point, u, v) = (table.places("point")?, table.places("u")?, table.places("v")?);
         Ok(Self { table, point, u, v })
     }
 
@@ -428,8 +525,11 @@ impl<'py> Planar<'py> {
 
 fn spheres(ir: &Bound<PyAny>) -> PyResult<Vec<Sphere>> {
     let table = Table::of(ir, "spheres")?;
-    let center = table.vectors("center")?;
-    let radius: Vec<f64> = table.plain("radius")?;
+    let center = table.places("center")?;
+    let radius = table.numbers("radius")?;
+    for (row, &radius) in radius.iter().enumerate() {
+        place(radius, || format!("spheres.radius, row {row},"))?;
+    }
     let (pole, equator) = (table.vectors("pole")?, table.vectors("equator")?);
     (0..center.len())
         .map(|i| {
@@ -451,10 +551,14 @@ fn shapes(ir: &Bound<PyAny>, solids: usize, lights: usize) -> PyResult<Shapes> {
     let spheres = spheres(ir)?;
     let (planes, triangles) = (Planar::of(ir, "planes")?, Planar::of(ir, "triangles")?);
     let rectangles = Planar::of(ir, "rectangles")?;
-    let meshes = Meshes::of(ir)?;
+    let mut meshes = Meshes::of(ir)?;
     let mut shapes = Shapes::default();
-    shapes.vertices = Table::of(ir, "vertices")?.vectors("position")?;
+    shapes.vertices = Table::of(ir, "vertices")?.places("position")?;
     shapes.normals = Table::of(ir, "normals")?.vectors("direction")?;
+    if kind.len() + meshes.owned.length > ShapeId::MOST || shapes.vertices.len() > ShapeId::MOST {
+        return Err(PyValueError::new_err("the scene has more than 1,073,741,824 shapes"));
+    }
+    shapes.reserve(kind.len(), meshes.owned.length).map_err(|_| PyMemoryError::new_err(TOO_LARGE))?;
     for (i, &kind) in kind.iter().enumerate() {
         let owner = match (*table.entry(&solid, i)?, *table.entry(&light, i)?) {
             (solid, -1) if usize::try_from(solid).is_ok_and(|row| row < solids) => {
@@ -488,9 +592,6 @@ fn shapes(ir: &Bound<PyAny>, solids: usize, lights: usize) -> PyResult<Shapes> {
             4 | 5 => meshes.push(row, part, &mut shapes)?,
             other => return Err(damaged(format!("primitive {i} is of an unknown kind, {other}"))),
         }
-        if shapes.count() > crate::ray::ShapeId::MOST {
-            return Err(PyValueError::new_err("the scene has more than 1,073,741,824 shapes"));
-        }
     }
     Ok(shapes)
 }
@@ -503,26 +604,29 @@ struct Meshes<'py> {
     facet_count: Vec<i32>,
     corners: Threes<'py, i32>,
     normals: Threes<'py, i32>,
+    owned: Owned,
 }
 
 impl<'py> Meshes<'py> {
     fn of(ir: &Bound<'py, PyAny>) -> PyResult<Self> {
         let table = Table::of(ir, "meshes")?;
         let facets = Table::of(ir, "facets")?;
+        let (corners, normals) = (facets.threes("vertex")?, facets.threes("normal")?);
         Ok(Self {
+            owned: Owned::new("facets", corners.len().min(normals.len())),
             phong: table.plain("phong")?,
             first_facet: table.plain("first_facet")?,
             facet_count: table.plain("facet_count")?,
-            corners: facets.threes("vertex")?,
-            normals: facets.threes("normal")?,
+            corners,
+            normals,
             table,
         })
     }
 
-    fn push(&self, row: usize, part: Part, shapes: &mut Shapes) -> PyResult<()> {
+    fn push(&mut self, row: usize, part: Part, shapes: &mut Shapes) -> PyResult<()> {
         let first = *self.table.entry(&self.first_facet, row)?;
         let count = *self.table.entry(&self.facet_count, row)?;
-        let used = rows("facets", first, count, self.corners.len().min(self.normals.len()))?;
+        let used = self.owned.take(first, count)?;
         let phong = *self.table.entry(&self.phong, row)?;
         let (vertices, normals) = (shapes.vertices.len(), shapes.normals.len());
         let exist = |names: [i32; 3], length: usize| {
@@ -553,7 +657,9 @@ pub fn atmosphere(ir: &Bound<PyAny>, finer: usize) -> PyResult<Option<Atmosphere
         elevation: number(&mirage, "elevation")?,
     };
     let table = Table::of(ir, "profile")?;
-    let elevations: Vec<f64> = table.plain("elevation")?;
-    let temperatures: Vec<f64> = table.plain("temperature")?;
+    let (elevations, temperatures) = (table.numbers("elevation")?, table.numbers("temperature")?);
+    if elevations.len() > MOST_POINTS {
+        return Err(damaged(format!("the temperature profile has more than {MOST_POINTS} points")));
+    }
     Atmosphere::new(&elevations, &temperatures, limits, finer).map(Some).map_err(PyValueError::new_err)
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::{PyMemoryError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -188,11 +188,12 @@ impl Scene {
                 }
             }
             let tally = match work.join() {
-                Ok(tally) => tally,
-                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(tally) => Ok(tally),
+                Err(_) => Err(PyRuntimeError::new_err("the renderer failed: please report this scene")),
             };
             (tally, stopped)
         });
+        let tally = tally?;
         if !stopped? {
             audience.is_told_the_end(py, &receiver)?;
         }
@@ -335,6 +336,7 @@ fn trace_paths<'py>(
     let mut heights = Vec::with_capacity(slopes.len() * distances.len());
     let mut path = Path::new(&air);
     for &slope in slopes {
+        py.check_signals()?;
         path.start(height, slope);
         let tip = path.end_tip();
         ends.push(end_number(tip.end));

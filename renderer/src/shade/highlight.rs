@@ -3,6 +3,7 @@
 //! Microfacets turned as Beckmann's distribution says; Fresnel's equation for unpolarised light shifts the colour
 //! of a metal toward the light's at grazing angles.
 
+use crate::within::within;
 use glam::DVec3;
 
 /// What a surface's highlights depend on.
@@ -37,15 +38,14 @@ impl Gloss {
         let cos2 = (nh * nh).min(1.0);
         let r2 = self.rough * self.rough;
         let tan2 = (1.0 - cos2) / cos2;
-        ((-tan2 / r2).exp() / (r2 * cos2 * cos2) / self.beckmann).clamp(0.0, 1.0)
+        within((-tan2 / r2).exp() / (r2 * cos2 * cos2) / self.beckmann, 0.0, 1.0)
     }
 
     /// O_sF = O_d' + m (I_j - O_d') max(0, (F_γ - F_0)/(1 - F_0)), O_d' from white toward O_d by m.
     fn color(&self, vh: f64, diffuse: DVec3, light: DVec3) -> DVec3 {
         let base = DVec3::ONE.lerp(diffuse, self.metallic);
         let shift = (fresnel(self.refindex, vh) - self.fresnel) / (1.0 - self.fresnel);
-        let shift = if shift.is_nan() { 0.0 } else { shift.clamp(0.0, 1.0) };
-        base + self.metallic * shift * (light - base)
+        base + self.metallic * within(shift, 0.0, 1.0) * (light - base)
     }
 }
 

@@ -3,6 +3,7 @@
 //! Clear: Kittler's distribution (CIE 1973), overcast: Moon's and Spencer's (1942), both relative to the zenith.
 //! The lower hemisphere mirrors the upper.
 
+use crate::within::within;
 use glam::DVec3;
 
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +45,7 @@ impl Sky {
 
     /// Colour of the sky toward a unit vector of the upper hemisphere.
     pub fn color(&self, toward: DVec3) -> DVec3 {
-        let sine_of_elevation = toward.z.clamp(0.0, 1.0);
+        let sine_of_elevation = within(toward.z, 0.0, 1.0);
         let luminance =
             self.clear(toward) * (1.0 - self.overcast) + overcast(sine_of_elevation) * self.overcast;
         let height = sine_of_elevation.asin() / std::f64::consts::FRAC_PI_2;
@@ -56,8 +57,8 @@ impl Sky {
     fn clear(&self, toward: DVec3) -> f64 {
         let indicatrix = |angle: f64| 0.91 + 10.0 * (-3.0 * angle).exp() + 0.45 * angle.cos().powi(2);
         let gradation = |cosine: f64| 1.0 - (-0.32 / cosine).exp();
-        let to_sun = toward.dot(self.sun).clamp(-1.0, 1.0).acos();
-        let sun_zenith = self.sun.z.clamp(-1.0, 1.0).acos();
+        let to_sun = within(toward.dot(self.sun), -1.0, 1.0).acos();
+        let sun_zenith = within(self.sun.z, -1.0, 1.0).acos();
         indicatrix(to_sun) * gradation(toward.z.max(0.0)) / (indicatrix(sun_zenith) * gradation(1.0))
     }
 }

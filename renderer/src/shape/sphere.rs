@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::RadialPlane;
 use crate::ray::Ray;
+use crate::within::within;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
@@ -68,7 +69,7 @@ impl Sphere {
     /// u from the north pole (0) to the south pole (1), v counter-clockwise from the equator vector, in turns.
     pub fn uv(&self, point: DVec3) -> (f64, f64) {
         let normal = self.normal(point);
-        let u = normal.dot(self.pole).clamp(-1.0, 1.0).acos() / std::f64::consts::PI;
+        let u = within(normal.dot(self.pole), -1.0, 1.0).acos() / std::f64::consts::PI;
         let east = self.pole.cross(self.equator);
         let turn = normal.dot(east).atan2(normal.dot(self.equator)) / std::f64::consts::TAU;
         (u, if turn < 0.0 { turn + 1.0 } else { turn })

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use crate::ray::Ray;
+use crate::within::within;
 
 /// Distance along the ray to the triangle with these corners, from either side.
 #[inline(always)] // It is called for every facet of every leaf.
@@ -33,5 +34,5 @@ pub fn affine_coordinates(p: DVec3, u: DVec3, v: DVec3, point: DVec3) -> (f64, f
     let normal = u.cross(v);
     let area = normal.length_squared();
     let (s, t) = (w.cross(v).dot(normal) / area, u.cross(w).dot(normal) / area);
-    (s.clamp(0.0, 1.0), t.clamp(0.0, 1.0))
+    (within(s, 0.0, 1.0), within(t, 0.0, 1.0))
 }

@@ -25,6 +25,7 @@ from . import repeating
 from .scenes import Scenes
 
 SUFFIX = ".json"
+CASES = 60
 
 # A case is cancelled after this, and the kernel must have heard it this soon.
 PATIENCE_SECONDS, HEARD_SECONDS = 0.5, 1.0

@@ -72,6 +72,8 @@ that the one before has left.
   with `LOCAL` in its object, and moved, turned and sized by its own `TRANSFORM`.
 - **Which colour.** Its function has a value t from 0 to 1. `COLOR` is blended with the surface's colour, by t. `COLORS`
   divides 0 to 1 into ranges, each from one colour to another; where t falls in no range the surface keeps its colour.
+- **Which side.** Where a texture has a step, between CHECKER's cubes, between two ranges, or at the edge of SNOW, a
+  surface that lies in it has what is above: the step belongs to the cube, range or snow that begins there.
 - **How much.** `TURBULENCE`, `SQUEEZE`, `SCALE` and the like are 1 if not given, which is a lot; 0 is none.
 
 All pictures below are of one scene, each with its own surface:
@@ -115,7 +117,7 @@ EXAMPLES = (
     Example(
         "CHECKER", "checker",
         "COLOR < 0.85, 0.8, 0.7 > AMBIENT 0.3 HARD 0",
-        "CHECKER { COLOR < 0.25, 0.3, 0.35 > TRANSFORM { TRANSZ 0.01 } }",
+        "CHECKER { COLOR < 0.25, 0.3, 0.35 > }",
     ),
     Example(
         "WOOD", "wood",

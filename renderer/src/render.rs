@@ -21,7 +21,7 @@ use crate::shade::scatter::{into_hemisphere, roughened};
 use crate::shape::RadialPlane;
 use crate::supersampling::Filter;
 use crate::texture::{Skin, Spot, Texture};
-use crate::trace::{Departure, blocked, clearance, nearest, nearest_on_curve};
+use crate::trace::{Departure, blocked, clearance, nearest, nearest_on_curve, uncertainty};
 
 /// A ray with a horizontal part shorter than this is straight.
 const NEARLY_VERTICAL: f64 = 1e-6;
@@ -339,7 +339,7 @@ impl<'a> Tracer<'a> {
             if !solid.textures.is_empty() {
                 let needs_uv = solid.textures.iter().any(Texture::needs_uv);
                 let uv = if needs_uv { scene.shapes.uv(shape, point) } else { None };
-                let spot = Spot { point, uv };
+                let spot = Spot { point, uncertainty: uncertainty(point, way.rough), uv };
                 for texture in &solid.textures {
                     skin = texture.apply(skin, &spot);
                 }

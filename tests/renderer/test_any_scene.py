@@ -3,7 +3,6 @@ picture, or how it is divided, never changes it."""
 
 from __future__ import annotations
 
-import random
 from pathlib import Path
 
 import pytest
@@ -48,13 +47,6 @@ def test_a_ray_without_end_is_cut_and_can_be_stopped(name):
     assert paths.arcs.tolist() == [1_000_000] * 2
     with pytest.raises(m3d_render.Cancelled):
         m3d_render.render(ir, width=4000, height=4000, samples=64, cancel=lambda: True)
-
-
-@pytest.mark.parametrize("seed", range(100))
-@pytest.mark.filterwarnings("ignore::RuntimeWarning")
-def test_made_up_scenes(seed):
-    """More of them: make fuzz."""
-    assert kernel.check(kernel.make(random.Random(seed))) is None
 
 
 def garden(scale=1.0, hidden=()):

@@ -576,3 +576,94 @@ def test_wild_amounts_are_survived(keyword, amount):
     """
     shown = m3d_render.render(m3dc.compile(text).ir)
     assert np.all((shown >= 0) & (shown <= 1))
+
+
+# Surfaces in a step
+
+
+FLOOR = "PLANE { VERTEX1 < 0, 1, 0 > VERTEX2 < 0, 0, 0 > VERTEX3 < 1, 0, 0 > }"
+AIR = "MIRAGE { DISTANCE 300 PROFILE { -1 5 0.5 6 2 9 30 8 } }"
+GRAZING = "FROM < 30.1, 0.2, 1.3 > TO < 0.3, 0.4, 0 >"
+TURN = "ROTATE < 31, 47, -123 > TRANSLATE < 3.3, -1.7, 0.9 >"
+PAINT = "CHECKER { COLOR < 1, 1, 1 > %s }"
+
+
+def checkered(texture: str, *, shape=FLOOR, view=GRAZING, scene="", solid="", more="", samples=1) -> np.ndarray:
+    """Where a floor has the texture's colour, if none of it is speckled."""
+    text = f"""
+        SCENE {{
+            AMBIENT {{ INTENSITY 1 COLOR < 1, 1, 1 > }} BACKGROUND < 0.5, 0.5, 0.5 > DEPTH 4 {scene}
+            VIEW {{ {view} FOV 20 WIDTH 90 HEIGHT 60 }}
+        }}
+        {more}
+        SOLID {{
+            {shape} {solid}
+            SURFACE {{ COLOR < 0, 0, 0 > SPECULAR 0 AMBIENT 1 TEXTURE {{ {texture} }} }}
+        }}
+        """
+    return m3d_render.render(compiled(text), samples=samples, refract_reflections=True)
+
+
+MIRROR = """SOLID { SPHERE { CENTER < 0, 0, 2 > RADIUS 2 }
+    SURFACE { SPECULAR 1 HARD 1 AMBIENT 0 COLOR < 0, 0, 0 > } }"""
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        {"view": "FROM < 3000.1, 0.2, 400.3 > TO < 0.3, 0.4, 0 >"},
+        {"scene": AIR},
+        {"more": MIRROR},
+        {"scene": AIR, "more": MIRROR},
+        {"shape": "RECTANGLE { VERTEX1 < -9, 9, 0 > VERTEX2 < -9, -9, 0 > VERTEX3 < 9, -9, 0 > }"},
+        {"shape": "TRIANGLE { VERTEX1 < -9, 9, 0 > VERTEX2 < -9, -9, 0 > VERTEX3 < 9, -9, 0 > }", "scene": AIR},
+        {"shape": "POLYGONS { VERTICES { 3 < -9, 9, 0 > < -9, -9, 0 > < 9, -9, 0 > } FACETS { 1 0 1 2 } }"},
+        {"samples": 3},
+    ],
+)
+def test_a_floor_between_two_layers_of_cubes_is_of_the_upper_one(scene):
+    """As if the cubes were let down by half a cube."""
+    found = checkered(PAINT % "", **scene)
+    lower = checkered(PAINT % "TRANSFORM { TRANSZ -0.5 }", **scene)
+    assert 0.2 < found.mean() < 0.8
+    np.testing.assert_array_equal(found, lower)
+    other = checkered(PAINT % "TRANSFORM { TRANSZ 0.5 }", **scene)
+    assert (found != other).any()
+
+
+@pytest.mark.parametrize("scene", [{}, {"scene": AIR}, {"more": MIRROR}])
+@pytest.mark.parametrize("step", ["", "TRANSLATE < 0, 0, 7 >", "SCALE < 0.3, 2, 0.7 >"])
+def test_the_same_of_cubes_that_are_turned_with_the_floor(scene, step):
+    local = f"LOCAL TRANSFORM {{ {step} %s }}"
+    solid = f"TRANSFORM {{ {TURN} }}"
+    view = "FROM < 22, 9, 14 > TO < 3.4, -1.6, 0.95 >"
+    for where, turned in (("LOCAL", solid), ("", solid), ("", "")):
+        texture = local if where else f"TRANSFORM {{ {step} %s {TURN if turned else ''} }}"
+        found = checkered(PAINT % (texture % ""), view=view, solid=turned, **scene)
+        lower = checkered(PAINT % (texture % "TRANSZ -0.35"), view=view, solid=turned, **scene)
+        # A floor turned about a far point may be off by what its corners are rounded to, along its edges alone.
+        assert (found != lower).any(axis=-1).mean() < 0.002, (where, turned)
+
+
+RANGES = "COLORS { 0 0.5 < 1, 0, 0 > < 1, 0, 0 > 0.5 1 < 0, 0, 1 > < 0, 0, 1 > }"
+
+
+@pytest.mark.parametrize(
+    ("texture", "color"),
+    [
+        (f"MARBLE {{ TURBULENCE 0 SQUEEZE 0 {RANGES} }}", (0, 0, 1)),
+        (f"GRADIENT {{ TURBULENCE 0 {RANGES} }}", (0, 0, 1)),
+        ("SNOW { TURBULENCE 0 SCALE 0 ELEVATION 0.5 COLOR < 0, 1, 0 > }", (0, 1, 0)),
+        ("SNOW { TURBULENCE 0 SCALE 0 ELEVATION 0.5 SLOPE 0 COLOR < 0, 1, 0 > }", (0, 1, 0)),
+    ],
+)
+@pytest.mark.parametrize("scene", [{}, {"scene": AIR}])
+def test_a_floor_at_a_step_of_any_texture_is_of_one_colour(texture, color, scene):
+    """At y = 0.25 of MARBLE, and half the scene's height of the others, which go by elevation: it is 0 to 0.2."""
+    if "MARBLE" in texture:
+        texture = texture.replace("{", "{ TRANSFORM { ROTX 90 TRANSZ -0.15 }", 1)
+    floor = "RECTANGLE { VERTEX1 < -90, 90, 0.1 > VERTEX2 < -90, -90, 0.1 > VERTEX3 < 90, -90, 0.1 > }"
+    ends = " ".join(f"SOLID {{ SPHERE {{ CENTER < -900, 0, {z} > RADIUS 0.01 }} }}" for z in (0.01, 0.19))
+    found = checkered(texture, shape=floor, view="FROM < 30.1, 0.2, 9.3 > TO < 0.3, 0.4, 0 >", more=ends, **scene)
+    np.testing.assert_allclose(found, np.broadcast_to(color, found.shape))

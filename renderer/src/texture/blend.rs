@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::Spot;
 use super::tint::Tint;
+use crate::within::within;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Along {
@@ -56,7 +57,7 @@ fn hsv(color: DVec3) -> DVec3 {
 fn rgb(hsv: DVec3) -> DVec3 {
     let channel = |shift: f64| {
         let k = (shift + hsv.x / 60.0).rem_euclid(6.0);
-        hsv.z - hsv.z * hsv.y * k.min(4.0 - k).clamp(0.0, 1.0)
+        hsv.z - hsv.z * hsv.y * within(k.min(4.0 - k), 0.0, 1.0)
     };
     DVec3::new(channel(5.0), channel(3.0), channel(1.0))
 }
@@ -78,7 +79,7 @@ mod tests {
     #[test]
     fn red_to_blue_goes_by_yellow_and_green() {
         let blend = Blend { along: Along::U, tint: plain(DVec3::Z) };
-        let at = |u| blend.color(DVec3::X, &Spot { point: DVec3::ZERO, uv: Some((u, 0.0)) });
+        let at = |u| blend.color(DVec3::X, &Spot { uv: Some((u, 0.0)), ..Spot::at(0.0, 0.0, 0.0) });
         assert!((at(0.25) - DVec3::new(1.0, 1.0, 0.0)).abs().max_element() < 1e-12);
         assert!((at(0.5) - DVec3::Y).abs().max_element() < 1e-12);
     }

@@ -13,6 +13,7 @@ use super::placement::Placement;
 use super::squeeze::Squeeze;
 use super::{Skin, Spot};
 use crate::noise::{noise_and_gradient, octave};
+use crate::within::within;
 
 /// Octaves of the noise with TURBULENCE: finer ones would be seen as grain, not as bumps.
 const OCTAVES: u32 = 4;
@@ -30,7 +31,7 @@ impl Bumps {
     pub fn apply(&self, skin: Skin, spot: &Spot) -> Skin {
         let (t, gradient) = self.height(self.placement.point(spot.point));
         Skin {
-            color: color_at(&self.ranges, t.clamp(0.0, 1.0)).unwrap_or(skin.color),
+            color: color_at(&self.ranges, within(t, 0.0, 1.0)).unwrap_or(skin.color),
             normal: self.placement.raised(skin.normal, gradient),
         }
     }

@@ -12,6 +12,7 @@ use super::placement::Placement;
 use super::squeeze::Squeeze;
 use super::tint::Tint;
 use crate::noise::{OCTAVES, cubic, noise, octave};
+use crate::within::within;
 
 /// How flat the clouds are.
 const FLATNESS: DVec3 = DVec3::new(1.0, 1.0, 3.0);
@@ -26,7 +27,7 @@ pub struct Clouds {
 
 impl Clouds {
     pub fn color(&self, surface: DVec3, spot: &Spot) -> DVec3 {
-        let cover = self.cover(self.placement.point(spot.point)).clamp(0.0, 1.0);
+        let cover = within(self.cover(self.placement.point(spot.point)), 0.0, 1.0);
         self.tint.over(surface, cubic(self.squeeze.apply(cover)))
     }
 

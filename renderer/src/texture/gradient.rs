@@ -31,6 +31,6 @@ impl Gradient {
         if self.turbulence != 0.0 {
             t += 0.5 * self.turbulence * fractal(self.placement.point(spot.point));
         }
-        self.tint.over(surface, t)
+        self.tint.over_known(surface, t, heights.share_of(spot.uncertainty))
     }
 }

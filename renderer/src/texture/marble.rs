@@ -24,7 +24,10 @@ pub struct Marble {
 
 impl Marble {
     pub fn color(&self, surface: DVec3, spot: &Spot) -> DVec3 {
-        self.tint.over(surface, self.value(self.placement.point(spot.point)))
+        let point = self.placement.point(spot.point);
+        // dt/dy is at most π (1 + SQUEEZE).
+        let uncertainty = PI * self.squeeze.factor() * self.placement.uncertainty(spot, point).y;
+        self.tint.over_known(surface, self.value(point), uncertainty)
     }
 
     fn value(&self, p: DVec3) -> f64 {

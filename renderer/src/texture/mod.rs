@@ -1,5 +1,9 @@
 //! Procedural textures: how the colour or the normal of a surface changes from point to point. Thesis 3.5 and
 //! 7.5.5.4.
+//!
+//! A point where a ray meets a surface is known to within rounding. Where a texture has a step, it sees a point that is
+//! nearer to the step than that on its upper side: so a surface that lies in the step, such as a floor between two
+//! layers of CHECKER's cubes, belongs to one side as a whole.
 
 pub mod blend;
 pub mod bumps;
@@ -39,6 +43,8 @@ use wood::Wood;
 pub struct Spot {
     /// World position.
     pub point: DVec3,
+    /// Within which each of its coordinates is known.
+    pub uncertainty: f64,
     /// u and v of the primitive, 0..1; a plane has none.
     pub uv: Option<(f64, f64)>,
 }
@@ -89,5 +95,13 @@ impl Texture {
             Texture::Ripples(ripples) => Skin { color, normal: ripples.normal(normal, spot) },
             Texture::Blend(blend) => painted(blend.color(color, spot)),
         }
+    }
+}
+
+#[cfg(test)]
+impl Spot {
+    /// A point known exactly, of a shape without u and v.
+    pub fn at(x: f64, y: f64, z: f64) -> Self {
+        Self { point: DVec3::new(x, y, z), uncertainty: 0.0, uv: None }
     }
 }

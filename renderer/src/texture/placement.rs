@@ -3,9 +3,13 @@
 
 use glam::{DMat3, DMat4, DVec3};
 
+use super::Spot;
+
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     to_texture: DMat4,
+    /// How far, by axis of texture space, a step of one along each of the world's axes leads at most.
+    stretch: DVec3,
     /// What takes normals there, and back.
     normals: DMat3,
     normals_back: DMat3,
@@ -15,12 +19,19 @@ impl Placement {
     /// By the matrix from the world to texture space.
     pub fn new(to_texture: DMat4) -> Self {
         let normals_back = DMat3::from_mat4(to_texture).transpose();
-        Self { to_texture, normals: normals_back.inverse(), normals_back }
+        let [x, y, z] =
+            [to_texture.x_axis, to_texture.y_axis, to_texture.z_axis].map(|axis| axis.abs().truncate());
+        Self { to_texture, stretch: x + y + z, normals: normals_back.inverse(), normals_back }
     }
 
     /// A point of the world in texture space.
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.to_texture.transform_point3(point)
+    }
+
+    /// Within which each coordinate in texture space of a spot is known, `point` being where it is there.
+    pub fn uncertainty(&self, spot: &Spot, point: DVec3) -> DVec3 {
+        spot.uncertainty * self.stretch + 4.0 * f64::EPSILON * point.abs()
     }
 
     /// The normal of a surface that is raised along its normal, in texture space, by a height of this

@@ -34,7 +34,7 @@ mod tests {
         let placement = Placement::new(DMat4::IDENTITY);
         let at = |waves: &[Wave]| {
             let ripples = Ripples { placement, waves: waves.to_vec() };
-            ripples.normal(DVec3::Z, &Spot { point: DVec3::new(0.0, 1.0, 0.0), uv: None })
+            ripples.normal(DVec3::Z, &Spot::at(0.0, 1.0, 0.0))
         };
         // Half-way between two equal sources the slopes along x cancel.
         assert!(at(&[wave(1.0), wave(-1.0)]).x.abs() < 1e-15);

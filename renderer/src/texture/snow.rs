@@ -13,6 +13,9 @@ use super::heights::Heights;
 use super::placement::Placement;
 use crate::noise::fractal;
 
+/// Within which the coordinates of a normal are known.
+const UNCERTAINTY: f64 = 1e-12;
+
 #[derive(Clone, Debug)]
 pub struct Snow {
     pub placement: Placement,
@@ -31,14 +34,15 @@ impl Snow {
         let Some(heights) = self.heights else {
             return surface;
         };
-        if normal.z < self.steepest {
+        // A slope of just SLOPE holds snow, but for an upright one.
+        if normal.z < self.steepest - UNCERTAINTY || (self.steepest < UNCERTAINTY && normal.z < UNCERTAINTY) {
             return surface;
         }
         let mut line = self.elevation - self.scale * (1.0 - normal.z);
         if self.turbulence != 0.0 {
             line += 0.5 * self.turbulence * fractal(self.placement.point(spot.point));
         }
-        if spot.point.z >= heights.at(line) { self.color } else { surface }
+        if spot.point.z + spot.uncertainty >= heights.at(line) { self.color } else { surface }
     }
 }
 
@@ -61,7 +65,7 @@ mod tests {
 
     fn lies(snow: &Snow, z: f64, slope: f64) -> bool {
         let (sin, cos) = slope.to_radians().sin_cos();
-        let spot = Spot { point: DVec3::new(3.3, 1.7, z), uv: None };
+        let spot = Spot::at(3.3, 1.7, z);
         snow.color(DVec3::ZERO, DVec3::new(sin, 0.0, cos), &spot) == DVec3::ONE
     }
 
@@ -71,6 +75,20 @@ mod tests {
         assert!(lies(&snow(), 70.0, 49.9) && !lies(&snow(), 70.0, 50.1));
         assert!(!lies(&snow(), 70.0, 180.0));
         assert!(!lies(&Snow { heights: None, ..snow() }, 70.0, 0.0));
+    }
+
+    #[test]
+    fn a_roof_at_the_very_elevation_and_slope_is_white_as_a_whole() {
+        let top = Snow { elevation: 1.0, steepest: 1.0, ..snow() };
+        for (z, normal) in [(80.0 - 1e-13, 1.0), (80.0 + 1e-13, 1.0 - 1e-16), (80.0, 1.0)] {
+            let spot = Spot { uncertainty: 1e-12, ..Spot::at(3.3, 1.7, z) };
+            assert_eq!(top.color(DVec3::ZERO, normal * DVec3::Z, &spot), DVec3::ONE);
+        }
+        let upright = Snow { steepest: 90f64.to_radians().cos(), ..snow() };
+        for z in [0.0, 1e-16, -1e-16] {
+            let spot = Spot::at(3.3, 1.7, 70.0);
+            assert_eq!(upright.color(DVec3::ZERO, DVec3::new(1.0, 0.0, z), &spot), DVec3::ZERO);
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::Spot;
 use super::placement::Placement;
 use super::tint::Tint;
 use crate::noise::{cubic, noise};
+use crate::within::within;
 
 #[derive(Clone, Debug)]
 pub struct Spotted {
@@ -20,7 +21,7 @@ pub struct Spotted {
 impl Spotted {
     pub fn color(&self, surface: DVec3, spot: &Spot) -> DVec3 {
         let n = noise(self.placement.point(spot.point));
-        self.tint.over(surface, cubic((self.scale * n).clamp(0.0, 1.0)))
+        self.tint.over(surface, cubic(within(self.scale * n, 0.0, 1.0)))
     }
 }
 
@@ -35,8 +36,8 @@ mod tests {
         let at = |scale, i: u32| {
             let spotted =
                 Spotted { placement: Placement::new(DMat4::IDENTITY), tint: plain(DVec3::ONE), scale };
-            let point = f64::from(i) * DVec3::new(0.31, 0.17, 0.23);
-            spotted.color(DVec3::ZERO, &Spot { point, uv: None }).x
+            let [x, y, z] = [0.31, 0.17, 0.23].map(|step| f64::from(i) * step);
+            spotted.color(DVec3::ZERO, &Spot::at(x, y, z)).x
         };
         for i in 0..100 {
             assert!(at(0.0, i) == 0.0 && at(0.7, i) <= at(1.0, i) && at(1.0, i) <= at(2.0, i));

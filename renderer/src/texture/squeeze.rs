@@ -15,6 +15,11 @@ impl Squeeze {
         Self { factor: 1.0 + amount.max(0.0) }
     }
 
+    /// 1 + SQUEEZE, by which a pattern is stretched.
+    pub fn factor(self) -> f64 {
+        self.factor
+    }
+
     /// 1 - (1 - t)(1 + SQUEEZE), 0 at least.
     pub fn apply(self, t: f64) -> f64 {
         (1.0 - (1.0 - t) * self.factor).max(0.0)

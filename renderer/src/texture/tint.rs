@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::color_range::{ColorRange, color_at};
+use crate::within::within;
 
 #[derive(Clone, Debug)]
 pub struct Tint {
@@ -15,14 +16,20 @@ impl Tint {
     /// A blend from the surface's colour, t = 0, to the texture's, t = 1; with COLORS, the colour of the
     /// range that holds t, and the surface's own in the gaps.
     pub fn over(&self, surface: DVec3, t: f64) -> DVec3 {
+        self.over_known(surface, t, 0.0)
+    }
+
+    /// The same for a t that may be constant over a surface, and is known to within `uncertainty`: where a range begins
+    /// at it, it is within.
+    pub fn over_known(&self, surface: DVec3, t: f64, uncertainty: f64) -> DVec3 {
         if t.is_nan() {
             return surface;
         }
-        let t = t.clamp(0.0, 1.0);
+        let t = within(t, 0.0, 1.0);
         if self.ranges.is_empty() {
             surface.lerp(self.color, t)
         } else {
-            color_at(&self.ranges, t).unwrap_or(surface)
+            color_at(&self.ranges, (t + uncertainty).min(1.0)).unwrap_or(surface)
         }
     }
 }

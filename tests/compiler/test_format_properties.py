@@ -143,6 +143,22 @@ def test_twice_is_once_and_no_token_or_comment_is_lost(data: bytes) -> None:
     assert leaves(out) == leaves(data)
 
 
+values = st.sampled_from(["0", "-1", "12.5", "+2.50", "1e3", "-4.8E-10", "x", "the_ground"])
+rows = st.lists(st.tuples(values, values, values, st.sampled_from(["1", "2.25", "30"])), min_size=2, max_size=12)
+
+
+@relaxed
+@given(rows, st.sampled_from(["SOLID {{ {} }}", "SOLID {{\n{}\n}}"]))
+def test_runs_of_one_line_blocks_are_in_columns(rows: list[tuple[str, str, str, str]], around: str) -> None:
+    blocks = [f"SPHERE{{CENTER<{x},{y},{z}>RADIUS {r}}}" for x, y, z, r in rows]
+    out = format(around.format("\n".join(blocks)).encode()).decode()
+    assert format(out.encode()).decode() == out
+    assert re.sub(r"\s", "", out) == re.sub(r"\s", "", around.format("".join(blocks)))
+    lines = [line for line in out.splitlines() if line.strip().startswith("SPHERE {")]
+    assert len(lines) in (0, len(rows))
+    assert len({(line.index(">"), line.index("RADIUS"), len(line)) for line in lines}) <= 1
+
+
 @relaxed
 @given(texts)
 def test_the_meaning_stays(data: bytes) -> None:

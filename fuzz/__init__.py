@@ -10,7 +10,7 @@ A target is a module here, named in `TARGETS`, with
     def make(chance: random.Random) -> bytes        an input
     def check(data: bytes) -> str | None            what is wrong with what comes of it; it may raise, too
     SUFFIX: str                                     of a file with such an input
-    CASES: int                                      how many the test suite tries
+    CASES: int                                      how many the test suite tries (20 without)
 
 and `run = repeating(make, check)`, or a `run` of its own: (seconds, seed, cases=None) -> list[Failure].
 """
@@ -26,7 +26,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-TARGETS = ("text", "wireframe", "m3ir", "protocol", "kernel")
+TARGETS = ("text", "edits", "editor", "wireframe", "m3ir", "protocol", "kernel")
+
+USUAL_CASES = 20
 
 # After so many failures a target ends: more of them seldom say more.
 MOST_FAILURES = 10

@@ -21,7 +21,7 @@ from . import repeating
 from .scenes import Scenes
 
 SUFFIX = ".m3ir"
-CASES = 200
+CASES = 80
 
 NUMBERS = (float("nan"), float("inf"), -float("inf"), 0, -1, 1, 2**31 - 1, -(2**31), 1e308, 1e-320)
 VALUES: tuple[Any, ...] = (*NUMBERS, None, True, "", "x", [], {}, [1, 2], {"a": 1}, 10**400, [[[]]], -0.5)

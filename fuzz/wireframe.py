@@ -18,7 +18,7 @@ from . import repeating
 from .scenes import Scenes
 
 SUFFIX = ".m3d"
-CASES = 100
+CASES = 60
 
 COLUMNS, ROWS = 32, 20
 SLACK = 1e-9  # of a pixel

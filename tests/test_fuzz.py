@@ -8,7 +8,7 @@ import random
 
 import pytest
 
-from fuzz import TARGETS, Failure, repeating
+from fuzz import TARGETS, USUAL_CASES, Failure, repeating
 
 
 def make(chance: random.Random) -> bytes:
@@ -38,4 +38,4 @@ def test_it_ends_when_its_time_is_over() -> None:
 @pytest.mark.parametrize("name", TARGETS)
 def test_nothing_is_found_in_a_few_cases(name: str) -> None:
     target = importlib.import_module(f"fuzz.{name}")
-    assert target.run(math.inf, 1, cases=target.CASES) == []
+    assert target.run(math.inf, 1, cases=getattr(target, "CASES", USUAL_CASES)) == []

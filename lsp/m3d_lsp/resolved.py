@@ -17,9 +17,12 @@ from .markdown import matrix
 from .standing import Standing, in_scene
 from .summary import number, vector
 
+# What is asked about may be wrong: its numbers, too, and they are shown as they are.
+_HOWEVER_LARGE = np.errstate(all="ignore")
 _KINDS = {kind.name for kind in PrimitiveKind}
 
 
+@_HOWEVER_LARGE
 def facts(here: Standing, keyword: str) -> str:
     """What the block that begins with a keyword, or that the innermost record is, comes to; '' if nothing is known."""
     record = here.innermost
@@ -36,6 +39,7 @@ def facts(here: Standing, keyword: str) -> str:
     return ""
 
 
+@_HOWEVER_LARGE
 def transformation(here: Standing) -> str:
     """The matrix that the statements up to a place make, and that of the innermost record in the scene."""
     scene = in_scene(here)
@@ -51,6 +55,7 @@ def of_transform(transform: Transform) -> str:
     return f"{matrix(transform.matrix.tolist())}\n\nThe origin goes to `{vector(transform.points(np.zeros(3)))}`."
 
 
+@_HOWEVER_LARGE
 def point(here: Standing, value: tuple[float, float, float]) -> str:
     """Where a point of a primitive is in the scene; '' if it is not moved."""
     transform = in_scene(here)

@@ -396,6 +396,13 @@ CATALOGUE: dict[str, Entry] = {
         f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ TEXTURE {{ WOOD {{ }} }} }} TRANSFORM {{ TRANSX 5 }} }}",
         f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ TEXTURE {{ WOOD {{ LOCAL }} }} }} TRANSFORM {{ TRANSX 5 }} }}",
     ),
+    "M3D0508": _warning(
+        "A curved ray has 1000000 arcs at most",
+        "SEGMENTS beyond that has no effect: memory and time for a ray are bounded. A ray through the air of a whole day's "
+        "sight has a few thousand.",
+        "SCENE { SKY { } MIRAGE { SEGMENTS 2000000 PROFILE { 0 10 5 11 20 12 } } }",
+        "SCENE { SKY { } MIRAGE { SEGMENTS 1000000 PROFILE { 0 10 5 11 20 12 } } }",
+    ),
     "M3D0509": _warning(
         "A scaled sphere stays a sphere",
         "The transformation scales differently in different directions, but a sphere only grows, by the largest factor.",

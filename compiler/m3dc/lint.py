@@ -13,6 +13,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from tree_sitter_m3d.table import LANGUAGE
+
 from .diagnostics import Findings
 from .evaluate import World
 from .memo import Ledger, Steps
@@ -57,6 +59,12 @@ def _boundary(world: World, findings: Findings) -> None:
         if abs(elevation - height) < NEAR_BOUNDARY:
             detail = f"the eye is at {height:g}, the PROFILE has a point at {elevation:g}; move either a little"
             findings.add_at("M3D0506", view.place("FROM"), detail)
+
+
+def _segments(world: World, findings: Findings) -> None:
+    mirage = world.scene.nested.get("MIRAGE")
+    if mirage is not None and mirage.integer("SEGMENTS") > LANGUAGE.limits["segments"]:
+        findings.add_at("M3D0508", mirage.place("SEGMENTS"), "the rest of it has no effect")
 
 
 def _texture_stays(thing: Record, findings: Findings) -> None:
@@ -169,7 +177,7 @@ def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], floa
     return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
 
 
-SCENE_LINTS: tuple[Callable[[World, Findings], None], ...] = (_no_light, _light_reaches_nothing, _boundary)
+SCENE_LINTS: tuple[Callable[[World, Findings], None], ...] = (_no_light, _light_reaches_nothing, _boundary, _segments)
 OBJECT_LINTS: tuple[Callable[[Record, Findings], None], ...] = (
     _texture_stays,
     _stretched_sphere,

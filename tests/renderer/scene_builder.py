@@ -191,7 +191,7 @@ class SceneBuilder:
     def build(self):
         tables = empty_tables()
         for name, rows in self.rows.items():
-            for column, (dtype, shape, _) in TABLES[name].items():
+            for column, (dtype, shape, *_) in TABLES[name].items():
                 values = np.zeros((len(rows), *shape), dtype)
                 for i, row in enumerate(rows):
                     if column in row:

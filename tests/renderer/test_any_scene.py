@@ -13,6 +13,7 @@ import m3dc
 from fuzz import kernel
 from m3d_render.optics import trace_paths
 from m3dc.ir import Ambient, LightKind
+from tree_sitter_m3d.table import LANGUAGE
 
 SCENES = Path(__file__).parent / "scenes"
 BEYOND_REACH = {"ball-beyond-reach", "light-beyond-reach"}
@@ -86,3 +87,12 @@ def test_a_scene_of_any_size_has_the_same_picture(power):
 def test_what_lies_far_below_the_ground_changes_nothing(far):
     hidden = [(far, far, -5), (-far, far, -5), (far, 0, -far), (0, -far, -5)]
     assert m3d_render.render(garden(hidden=hidden)).tobytes() == m3d_render.render(garden()).tobytes()
+
+
+def test_the_bound_of_arcs_is_the_one_that_is_warned_of():
+    text = (SCENES / "endless-segments.m3d").read_text(encoding="utf-8")
+    most = LANGUAGE.limits["segments"]
+    assert trace_paths(m3dc.compile(text).ir, [1e-4]).arcs.tolist() == [most]
+    assert "M3D0508" in {found.code for found in m3dc.compile(text).diagnostics}
+    enough = m3dc.compile(text.replace("2147483647", str(most)))
+    assert "M3D0508" not in {found.code for found in enough.diagnostics}

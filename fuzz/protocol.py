@@ -35,8 +35,36 @@ red = { COLOR < 1, 0, 0 > }
 SOLID { SPHERE { RADIUS size } SURFACE red }
 LIGHT { SOURCE { FROM < 0, 0, 9 > } }
 """
-TEXTS = ["", URI, "file:///nowhere", "http://[", "untitled:\x00", "markdown", "plaintext", "size", "SOLID", "é\ud800"]
-ODD: list[Any] = [None, True, -1, 0, 1.5, 1 << 31, 1 << 70, "", "x", "\x00", [], {}, [[]], [None], {"uri": 5}]
+TEXTS = [
+    "",
+    URI,
+    "file:///nowhere",
+    "http://[",
+    "untitled:\x00",
+    "markdown",
+    "plaintext",
+    "SOLID",
+    "é\ud800",
+    "m3d.applyEdit",
+]
+ODD: list[Any] = [
+    None,
+    True,
+    -1,
+    0,
+    1.5,
+    1 << 31,
+    1 << 70,
+    "",
+    "x",
+    "\x00",
+    [],
+    {},
+    [[]],
+    [None],
+    {"uri": 5},
+    {"uri": URI},
+]
 OWN = {
     "m3d/dump": {"textDocument": {"uri": URI}, "position": {"line": 3, "character": 9}},
     "m3d/irTree": {"textDocument": {"uri": URI}},
@@ -81,6 +109,8 @@ def initialize(chance: random.Random) -> dict[str, Any]:
     """The parameters of `initialize`."""
     made: dict[str, Any] = {"processId": None, "rootUri": "file:///nowhere"}
     made["capabilities"] = of_type(types.ClientCapabilities, chance)
+    if chance.random() < 0.5:
+        made["capabilities"]["experimental"] = {"m3d": {"commands": ["m3d.preview", "m3d.dump"], "analysed": True}}
     if chance.random() < 0.3:
         made |= {"trace": chance.choice(["off", "verbose", "odd", None]), "locale": chance.choice([None, "de", 5])}
     damage(made["capabilities"], chance, chance.choice((0, 1, 3, 9)))

@@ -230,7 +230,13 @@ class Protocol(LanguageServerProtocol):
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Any:
+        client = Client.of(params.capabilities)
+        if client.applies_edits and not client.action_literals:
+            self._own.offer_edits()
         result = yield from super().lsp_initialize(params)
+        encoding = self.workspace.position_encoding
+        self._own.documents.encoding = str(getattr(encoding, "value", encoding))
+        self._own.documents.client = client
         self._initialized = True
         self._own.watch(params.process_id)
         return result
@@ -242,11 +248,14 @@ class Protocol(LanguageServerProtocol):
         if cancelled:
             await asyncio.wait(cancelled, timeout=LAST_ANSWERS_S)
 
+    @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
+    def lsp_workspace__execute_command(self, params: types.ExecuteCommandParams) -> Any:
+        # pygls takes a command without arguments for one that needs none.
+        params.arguments = params.arguments or []
+        return (yield from super().lsp_workspace__execute_command(params))
+
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> Any:
-        encoding = self.workspace.position_encoding
-        self._own.documents.encoding = str(getattr(encoding, "value", encoding))
-        self._own.documents.client = Client.of(self._own.client_capabilities)
         self._own.documents.open(params.text_document)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)

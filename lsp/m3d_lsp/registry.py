@@ -4,9 +4,9 @@
     def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None: ...
 
 A handler is a plain function of a snapshot and the request's parameters: it knows nothing of the server, sends nothing,
-and is not called again for what it says. The server waits for the snapshot of the document as it was when the request
-came, or a later one, and sends the answer; a handler that fails is logged, and its answer is `nothing`. What can not be
-done it refuses by raising RefusalError.
+and is not called again for what it says. It runs in a thread, at the same time as others. The server waits for the
+snapshot of the document as it was when the request came, or a later one, and sends the answer; a handler that fails is
+logged, and its answer is `nothing`. What can not be done it refuses by raising RefusalError.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ class RefusalError(Exception):
 
 
 class Request(NamedTuple):
-    """A handler of a request about one document; `slow` ones run in a thread."""
+    """A handler of a request about one document. The answer of an `exact` one is of no use about a later text."""
 
     method: str
     handler: Handler
     options: Any
     nothing: Any
-    slow: bool
+    exact: bool
 
 
 class ServerRequest(NamedTuple):
@@ -44,12 +44,12 @@ SERVER_REQUESTS: list[ServerRequest] = []
 
 
 def request(
-    method: str, options: Any = None, *, nothing: Any = None, slow: bool = False
+    method: str, options: Any = None, *, nothing: Any = None, exact: bool = False
 ) -> Callable[[Handler], Handler]:
     """Declares the handler of a request whose parameters name a text document, or an item of one."""
 
     def declare(handler: Handler) -> Handler:
-        REQUESTS.append(Request(method, handler, options, nothing, slow))
+        REQUESTS.append(Request(method, handler, options, nothing, exact))
         return handler
 
     return declare

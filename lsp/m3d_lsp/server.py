@@ -17,8 +17,9 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
 from . import client_process, feature, frames, reading, standard_io, view
+from .client import APPLY_EDIT
 from .document import Document
-from .documents import Documents, file_name
+from .documents import CONTENT_MODIFIED, Documents, file_name
 from .feature import diagnostics
 from .preview.previews import Previews
 from .protocol import Protocol
@@ -145,8 +146,13 @@ class Server(LanguageServer):
             self.text_document_publish_diagnostics(
                 types.PublishDiagnosticsParams(document.uri, diagnostics.of(snapshot), snapshot.version)
             )
-        analysed = {"uri": document.uri, "version": snapshot.version, "ok": snapshot.analysis.ok}
-        self.protocol.notify("m3d/analysed", analysed)
+        if self.documents.client.is_told:
+            analysed = {"uri": document.uri, "version": snapshot.version, "ok": snapshot.analysis.ok}
+            self.protocol.notify("m3d/analysed", analysed)
+
+    def offer_edits(self) -> None:
+        """Have a command for what code actions do, for clients that take nothing else."""
+        self.command(APPLY_EDIT)(_apply_edit)
 
     def not_read(self, method: str, given: Any, reason: str) -> None:
         """A notification can not be read. Where it is about the text of a document, that is not known any more."""
@@ -237,12 +243,14 @@ def _answer(server: Server, entry: Request) -> Callable[[Any], Awaitable[Any]]:
         document = server.documents.get(_uri(params))
         if document is None:
             return entry.nothing
+        version = document.version
         snapshot = await document.snapshot()
+        if entry.exact and snapshot.version != version:
+            raise JsonRpcException("the text has changed since", CONTENT_MODIFIED)
         try:
-            if entry.slow:
-                return await asyncio.to_thread(entry.handler, snapshot, params)
-            return entry.handler(snapshot, params)
-        except RefusalError:
+            # However long it takes: the message loop waits for nothing.
+            return await asyncio.to_thread(entry.handler, snapshot, params)
+        except (RefusalError, JsonRpcException):
             raise
         except Exception:
             log.exception("%s failed in version %s of %s", entry.method, snapshot.version, snapshot.uri)
@@ -250,6 +258,14 @@ def _answer(server: Server, entry: Request) -> Callable[[Any], Awaitable[Any]]:
             return entry.nothing
 
     return answer
+
+
+async def _apply_edit(server: Server, uri: str, version: int, edit: types.WorkspaceEdit) -> None:
+    """Make the edit of a code action. Raises RefusalError where the text is no longer the one that it was for."""
+    document = server.documents.get(uri)
+    if document is None or document.version != version:
+        raise RefusalError("The text has changed since; ask for the actions again.")
+    await server.workspace_apply_edit_async(types.ApplyWorkspaceEditParams(edit))
 
 
 def _uri(params: Any) -> str:

@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator
 
 import pytest_asyncio
 import pytest_lsp
-from editor import Editor, SceneClient
+from editor import OURS, Editor, SceneClient
 from lsprotocol import types
 from pytest_lsp import ClientServerConfig
 
@@ -23,6 +23,7 @@ async def client(lsp_client: SceneClient):
     """A client that can do what VS Code can. Positions count UTF-32, as Python does."""
     capabilities = pytest_lsp.client_capabilities("visual_studio_code")
     capabilities.general.position_encodings = [types.PositionEncodingKind.Utf32]
+    capabilities.experimental = OURS
     await lsp_client.initialize_session(types.InitializeParams(capabilities=capabilities, root_uri="file:///scenes"))
     yield
     await lsp_client.shutdown_session()

@@ -96,6 +96,8 @@ class Scene(NamedTuple):
         return self.text[start:end]
 
 
+# What the extension for VS Code says that it has.
+OURS = {"m3d": {"commands": ["m3d.preview", "m3d.render", "m3d.dump", "m3d.showReferences"], "analysed": True}}
 OWN_NOTIFICATIONS = ("m3d/analysed", "m3d/preview/tile")
 
 

@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 import pytest_lsp
-from editor import Editor, Scene, SceneClient, position
+from editor import OURS, Editor, Scene, SceneClient, position
 from lsprotocol import types
 
 COMMAND = [sys.executable, "-m", "m3d_lsp"]
@@ -39,6 +39,8 @@ async def start_server(
     if capabilities.general is None:
         capabilities.general = types.GeneralClientCapabilities()
     capabilities.general.position_encodings = [types.PositionEncodingKind(encoding)]
+    if like == "visual_studio_code":
+        capabilities.experimental = OURS
     params = types.InitializeParams(capabilities=capabilities, root_uri="file:///scenes")
     result = await client.initialize_session(params)
     return client, result.capabilities

@@ -19,7 +19,7 @@ PATIENCE_S = 30
 URI = session.URI
 
 PARSE, REQUEST, METHOD, PARAMS = -32700, -32600, -32601, -32602
-NOT_INITIALIZED, CONTENT_MODIFIED = -32002, -32801
+NOT_INITIALIZED, CONTENT_MODIFIED, FAILED = -32002, -32801, -32803
 
 
 def framed(message: Any) -> bytes:
@@ -165,6 +165,61 @@ def test_capabilities_that_are_not_understood_are_not_there() -> None:
         params = {"processId": "none", "capabilities": capabilities, "trace": "everything"}
         data = request(0, "initialize", params) + notification("initialized", {}) + opened()
         assert (capabilities, session.check(data)) == (capabilities, None)
+
+
+def test_what_a_client_can_not_show_is_not_sent() -> None:
+    """One that has said nothing of itself."""
+    with Talk() as talk:
+        talk.send(opened(session.SCENE.replace("size;", "size, spare;")))
+        document = {"textDocument": {"uri": URI}}
+        place = {**document, "position": {"line": 3, "character": 9}}
+        symbols = talk.ask(1, request(1, "textDocument/documentSymbol", document))
+        assert [(each["name"], each.get("containerName")) for each in symbols][:2] == [
+            ("VARIABLES", None),
+            ("size", "VARIABLES"),
+        ]
+        assert {each["kind"] for each in symbols} <= set(range(1, 19))
+        assert {each["location"]["uri"] for each in symbols} == {URI}
+        found = talk.ask(2, request(2, "workspace/symbol", {"query": ""}))
+        assert {each["kind"] for each in found} <= set(range(1, 19))
+        range_ = {"start": {"line": 0, "character": 0}, "end": {"line": 9, "character": 0}}
+        actions = {**document, "range": range_, "context": {"diagnostics": []}}
+        assert talk.ask(3, request(3, "textDocument/codeAction", actions)) == []
+        assert talk.ask(4, request(4, "textDocument/codeLens", document)) == []
+        hover = talk.ask(5, request(5, "textDocument/hover", place))
+        assert hover["contents"]["kind"] == "plaintext"
+        completion = talk.ask(6, request(6, "textDocument/completion", place))["items"]
+        assert completion
+        for item in completion:
+            assert item["kind"] in range(1, 19)
+            assert item.get("insertTextFormat", 1) == 1
+            assert "insert" not in item["textEdit"]
+        published = talk.asked("textDocument/publishDiagnostics")["params"]["diagnostics"]
+        assert published
+        assert not {"relatedInformation", "tags", "codeDescription"} & {key for each in published for key in each}
+        assert not [message for message in talk.said if message.get("method") != "textDocument/publishDiagnostics"]
+
+
+def test_commands_in_place_of_actions() -> None:
+    with Talk(initialize({"workspace": {"applyEdit": True}})) as talk:
+        talk.send(opened("SOLID { SPHERE { RADIUS size } }\n"))
+        range_ = {"start": {"line": 0, "character": 26}, "end": {"line": 0, "character": 26}}
+        actions = {"textDocument": {"uri": URI}, "range": range_, "context": {"diagnostics": []}}
+        found = talk.ask(1, request(1, "textDocument/codeAction", actions))
+        command = next(each for each in found if "eclare" in each["title"])
+        assert command["command"] == "m3d.applyEdit"
+        chosen = {"command": command["command"], "arguments": command["arguments"]}
+        talk.send(request(2, "workspace/executeCommand", chosen))
+        asked = talk.asked("workspace/applyEdit")
+        (edit,) = asked["params"]["edit"]["changes"][URI]
+        assert "size" in edit["newText"]
+        talk.send(framed({"jsonrpc": "2.0", "id": asked["id"], "result": {"applied": True}}))
+        assert talk.answer(2)["result"] is None
+        talk.send(changed({"text": "/* another text */"}))
+        assert talk.ask(3, request(3, "workspace/executeCommand", chosen)) == FAILED
+        for arguments in (None, [], [1, 2, 3], [URI, 1, {"changes": 5}]):
+            wrong = {"command": command["command"], "arguments": arguments}
+            assert talk.ask(4, request(4, "workspace/executeCommand", wrong)) == PARAMS
 
 
 @pytest.mark.parametrize("seeds", [range(first, first + 100) for first in range(0, 500, 100)], ids=str)

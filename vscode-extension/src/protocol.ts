@@ -9,6 +9,11 @@ import type { Position, Range, TextDocumentIdentifier } from "vscode-languagecli
 
 import type { Optics, Pixel, Rendered } from "../preview/host";
 
+/** What this client has for the server: commands for code lenses, and ears for m3d/analysed. */
+export const experimental = {
+  m3d: { commands: ["m3d.preview", "m3d.render", "m3d.dump", "m3d.showReferences"], analysed: true },
+};
+
 export interface Analysed {
   uri: string;
   version: number;

@@ -10,6 +10,7 @@ import {
   type LanguageClientOptions,
   type RequestType,
   type ServerOptions,
+  type StaticFeature,
 } from "vscode-languageclient/node";
 
 import * as protocol from "./protocol";
@@ -24,6 +25,15 @@ export type ServerState =
 /** A server that ends so often within so many ms is not started again by itself. */
 const MOST_ENDS = 4;
 const WITHIN = 180_000;
+
+const ours: StaticFeature = {
+  fillClientCapabilities: (capabilities) => {
+    capabilities.experimental = { ...(capabilities.experimental as object | undefined), ...protocol.experimental };
+  },
+  initialize: () => undefined,
+  getState: () => ({ kind: "static" }),
+  clear: () => undefined,
+};
 
 export class Server implements vscode.Disposable {
   readonly output = vscode.window.createOutputChannel("Mirage3D", { log: true });
@@ -90,6 +100,7 @@ export class Server implements vscode.Disposable {
     const options: ServerOptions = { command: found.program, args: ["--stdio"] };
     const client = new LanguageClient("m3d", "Mirage3D", options, this.clientOptions());
     this.client = client;
+    client.registerFeature(ours);
     client.onNotification(protocol.analysed, (analysed) => this.analysedAgain.fire(analysed));
     client.onNotification(protocol.tile, (tile) => this.tileCame.fire(tile));
     client.onDidChangeState(({ newState }) => {

@@ -4,8 +4,8 @@ an object; and above VARIABLES how often each variable is used.
 A comb of lenses is worth less than none: objects have one where they are few and each is written on several lines, and
 of the variables of a crowded line only those that nothing uses.
 
-Answers `textDocument/codeLens`. The commands are the client's: `m3d.preview`, `m3d.render` and `m3d.dump` with a URI
-and a position, `m3d.showReferences` with the places of a variable besides.
+Answers `textDocument/codeLens`. The commands are the client's, which says that it has them: `m3d.preview`, `m3d.render`
+and `m3d.dump` with a URI and a position, `m3d.showReferences` with the places of a variable besides.
 """
 
 from __future__ import annotations
@@ -35,9 +35,13 @@ MOST_NAMES = 3
 
 @request(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions(resolve_provider=False), nothing=[])
 def code_lens(snapshot: Snapshot, params: types.CodeLensParams) -> list[types.CodeLens]:
-    """All lenses of a document, in the order of the text; none where they are switched off."""
+    """All lenses of a document, in the order of the text; none where they are switched off, nor such whose commands the
+    client does not have."""
     del params
-    return list(_lenses(snapshot)) if snapshot.settings.codeLens.enabled else []
+    commands = snapshot.client.commands
+    if not commands or not snapshot.settings.codeLens.enabled:
+        return []
+    return [lens for lens in _lenses(snapshot) if lens.command is not None and lens.command.command in commands]
 
 
 def _lenses(snapshot: Snapshot) -> Iterator[types.CodeLens]:

@@ -66,6 +66,9 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.Comp
         both = snapshot.client.insert_replace
         item.text_edit = types.InsertReplaceEdit(text, insert, replace) if both else types.TextEdit(insert, text)
         item.insert_text = None
+    for item in items:
+        if isinstance(item.kind, types.CompletionItemKind):
+            item.kind = snapshot.client.shown(item.kind)
     return types.CompletionList(is_incomplete=False, items=items)
 
 

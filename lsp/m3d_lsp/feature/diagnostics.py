@@ -34,7 +34,8 @@ def of(snapshot: Snapshot) -> list[types.Diagnostic]:
 
 def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnostic:
     """A diagnostic in LSP's form."""
-    page = page_of(diagnostic.code)
+    client = snapshot.client
+    page = page_of(diagnostic.code) if client.pages_of_codes else None
     return types.Diagnostic(
         snapshot.range(diagnostic.span),
         diagnostic.message,
@@ -42,10 +43,10 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
         code=diagnostic.code,
         code_description=types.CodeDescription(page) if page else None,
         source=SOURCE,
-        tags=[types.DiagnosticTag.Unnecessary] if diagnostic.code in WITHOUT_EFFECT else None,
+        tags=[types.DiagnosticTag.Unnecessary] if client.unnecessary and diagnostic.code in WITHOUT_EFFECT else None,
         related_information=[
             types.DiagnosticRelatedInformation(snapshot.location(place.span), place.message)
-            for place in diagnostic.related
+            for place in (diagnostic.related if client.related_places else ())
         ]
         or None,
     )

@@ -22,14 +22,14 @@ from ..tree import leaf_at
 Edits = list[types.TextEdit] | None
 
 
-@request(types.TEXT_DOCUMENT_FORMATTING, slow=True)
+@request(types.TEXT_DOCUMENT_FORMATTING)
 def document(snapshot: Snapshot, params: types.DocumentFormattingParams) -> Edits:
     """The whole text in its canonical layout."""
     del params
     return _made(snapshot, 0, snapshot.text.line_count - 1)
 
 
-@request(types.TEXT_DOCUMENT_RANGE_FORMATTING, slow=True)
+@request(types.TEXT_DOCUMENT_RANGE_FORMATTING)
 def part(snapshot: Snapshot, params: types.DocumentRangeFormattingParams) -> Edits:
     """The lines of a range."""
     first, last = params.range.start.line, params.range.end.line
@@ -41,7 +41,6 @@ def part(snapshot: Snapshot, params: types.DocumentRangeFormattingParams) -> Edi
 @request(
     types.TEXT_DOCUMENT_ON_TYPE_FORMATTING,
     types.DocumentOnTypeFormattingOptions(first_trigger_character="}", more_trigger_character=["\n"]),
-    slow=True,
 )
 def on_type(snapshot: Snapshot, params: types.DocumentOnTypeFormattingParams) -> Edits:
     """What has just been completed, and nothing after the cursor."""

@@ -21,7 +21,7 @@ _BARE = rb"(?<![\w/.~-])((?:/|\.{1,2}/)*[\w.~+-]+(?:/[\w.~+-]+)*\.\w+)"
 _LINK = re.compile(rb"(%s)|%s|%s" % (_ADDRESS, _QUOTED, _BARE))
 
 
-@request(types.TEXT_DOCUMENT_DOCUMENT_LINK, types.DocumentLinkOptions(resolve_provider=False), slow=True)
+@request(types.TEXT_DOCUMENT_DOCUMENT_LINK, types.DocumentLinkOptions(resolve_provider=False))
 def links(snapshot: Snapshot, params: types.DocumentLinkParams) -> list[types.DocumentLink]:
     """All links. Looks whether files are there."""
     del params

@@ -2,6 +2,9 @@
 
 Keywords are told apart as the highlight query of the grammar does; a variable is marked where it is declared and where
 it is assigned to, and has its type as a modifier. The numbers of a long table are marked only where they are looked at.
+
+Editors move the tokens that they get by what was typed since they asked: tokens of a later text would be moved twice,
+and end behind the ends of their lines. Where there is a later text they are refused, and asked for again.
 """
 
 from __future__ import annotations
@@ -10,6 +13,7 @@ import re
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import count
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
@@ -65,10 +69,7 @@ class Tokens(NamedTuple):
     modifiers: Numbers
 
 
-@request(
-    types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL,
-    LEGEND,
-)
+@request(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, exact=True)
 def full(snapshot: Snapshot, params: types.SemanticTokensParams) -> types.SemanticTokens:
     """The tokens of the whole text."""
     del params
@@ -76,7 +77,7 @@ def full(snapshot: Snapshot, params: types.SemanticTokensParams) -> types.Semant
     return types.SemanticTokens(data.reshape(-1).tolist(), _remember(snapshot.uri, data))
 
 
-@request(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND)
+@request(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, exact=True)
 def part(snapshot: Snapshot, params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
     """The tokens on the lines of a range."""
     text = snapshot.text
@@ -85,7 +86,7 @@ def part(snapshot: Snapshot, params: types.SemanticTokensRangeParams) -> types.S
     return types.SemanticTokens(_encoded(text, tokens).reshape(-1).tolist())
 
 
-@request(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, LEGEND)
+@request(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, LEGEND, exact=True)
 def delta(
     snapshot: Snapshot, params: types.SemanticTokensDeltaParams
 ) -> types.SemanticTokensDelta | types.SemanticTokens:
@@ -108,16 +109,18 @@ def delta(
 
 # The tokens that the client has of each document, and by what it knows them.
 _REMEMBERED: dict[str, tuple[str, NDArray[np.uint32]]] = {}
+_REMEMBERING = Lock()
 _NUMBERS = count(1)
 _MOST = 64  # documents
 
 
 def _remember(uri: str, data: NDArray[np.uint32]) -> str:
-    _REMEMBERED.pop(uri, None)
-    while len(_REMEMBERED) >= _MOST:
-        del _REMEMBERED[next(iter(_REMEMBERED))]
     known = str(next(_NUMBERS))
-    _REMEMBERED[uri] = known, data
+    with _REMEMBERING:
+        _REMEMBERED.pop(uri, None)
+        while len(_REMEMBERED) >= _MOST:
+            del _REMEMBERED[next(iter(_REMEMBERED))]
+        _REMEMBERED[uri] = known, data
     return known
 
 

@@ -11,6 +11,7 @@ from lsprotocol import types
 
 from tree_sitter_m3d.table import LANGUAGE
 
+from ..client import Client
 from ..outline import Entry, outline
 from ..registry import request
 from ..snapshot import Snapshot
@@ -29,12 +30,16 @@ def kind_of(entry: Entry) -> types.SymbolKind:
 
 
 @request(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, types.DocumentSymbolOptions(label="Mirage3D"))
-def symbols(snapshot: Snapshot, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """The outline as a tree."""
+def symbols(
+    snapshot: Snapshot, params: types.DocumentSymbolParams
+) -> list[types.DocumentSymbol] | list[types.SymbolInformation]:
+    """The outline as a tree; as a list for clients that know no other."""
     del params
     entries = outline(snapshot.analysis)
     ranges = iter(snapshot.text.ranges([span for entry in _all(entries) for span in (entry.span, entry.place)]))
-    return [_symbol(entry, ranges) for entry in entries]
+    if snapshot.client.symbol_trees:
+        return [_symbol(snapshot.client, entry, ranges) for entry in entries]
+    return [symbol for entry in entries for symbol in _flat(snapshot, entry, ranges, None)]
 
 
 def _all(entries: Iterable[Entry]) -> Iterator[Entry]:
@@ -43,10 +48,21 @@ def _all(entries: Iterable[Entry]) -> Iterator[Entry]:
         yield from _all(entry.children)
 
 
-def _symbol(entry: Entry, ranges: Iterator[types.Range]) -> types.DocumentSymbol:
+def _symbol(client: Client, entry: Entry, ranges: Iterator[types.Range]) -> types.DocumentSymbol:
     """The symbol of an entry; takes the ranges of it and of all that is in it."""
     whole, place = next(ranges), next(ranges)
-    children = [_symbol(child, ranges) for child in entry.children]
+    children = [_symbol(client, child, ranges) for child in entry.children]
     return types.DocumentSymbol(
-        entry.name, kind_of(entry), whole, place, entry.detail or None, children=children or None
+        entry.name, client.shown(kind_of(entry)), whole, place, entry.detail or None, children=children or None
     )
+
+
+def _flat(
+    snapshot: Snapshot, entry: Entry, ranges: Iterator[types.Range], container: str | None
+) -> Iterator[types.SymbolInformation]:
+    """The symbol of an entry, and those in it; takes the ranges of all of them."""
+    whole, _ = next(ranges), next(ranges)
+    location = types.Location(snapshot.uri, whole)
+    yield types.SymbolInformation(location, entry.name, snapshot.client.shown(kind_of(entry)), container_name=container)
+    for child in entry.children:
+        yield from _flat(snapshot, child, ranges, entry.name)

@@ -21,6 +21,7 @@ from ..comments import Comments
 from ..documents import file_path
 from ..outline import Entry, outline, outline_of
 from ..registry import server_request
+from ..snapshot import Snapshot
 from ..text import Text
 from .symbols import kind_of
 
@@ -47,7 +48,7 @@ async def find(server: Server, params: types.WorkspaceSymbolParams) -> list[type
     for document in list(server.documents):
         snapshot = await document.snapshot()
         opened.add(_file_of(document.uri) or document.uri)
-        found += _symbols(document.uri, snapshot.text, outline(snapshot.analysis))
+        found += await asyncio.to_thread(_of_document, snapshot)
     workspace = server.protocol.workspace
     folders = list(workspace.folders) or ([workspace.root_uri] if workspace.root_uri else [])
     stop = Event()
@@ -55,7 +56,16 @@ async def find(server: Server, params: types.WorkspaceSymbolParams) -> list[type
         found += await asyncio.to_thread(_in_folders, folders, opened, server.documents.encoding, stop)
     finally:
         stop.set()
-    return [symbol for symbol in found if _matches(params.query, symbol.name)][:MOST]
+    shown = [symbol for symbol in found if _matches(params.query, symbol.name)][:MOST]
+    client = server.documents.client
+    return [
+        types.WorkspaceSymbol(each.location, each.name, client.shown(each.kind), container_name=each.container_name)
+        for each in shown
+    ]
+
+
+def _of_document(snapshot: Snapshot) -> list[types.WorkspaceSymbol]:
+    return _symbols(snapshot.uri, snapshot.text, outline(snapshot.analysis))
 
 
 def _matches(query: str, name: str) -> bool:

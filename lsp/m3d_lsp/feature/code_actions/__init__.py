@@ -9,10 +9,12 @@ function that says what it can do at a place.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, cast
+from typing import cast
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcInvalidParams
 
+from ...client import APPLY_EDIT
 from ...registry import request
 from ...snapshot import Snapshot
 from ..diagnostics import lsp_diagnostic
@@ -41,25 +43,40 @@ KINDS = [
 ]
 
 
-@request(
-    types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS, resolve_provider=True), slow=True
-)
-def actions(snapshot: Snapshot, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """What can be done at a place. That of the whole file only where the client asks for it."""
+@request(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS, resolve_provider=True))
+def actions(snapshot: Snapshot, params: types.CodeActionParams) -> list[types.CodeAction] | list[types.Command]:
+    """What can be done at a place. That of the whole file only where the client asks for it. For clients that know no
+    actions, commands that have the edits made; nothing for those that make none."""
+    client = snapshot.client
+    if not client.action_literals and not client.applies_edits:
+        return []
     only = params.context.only
     site = Site(snapshot, snapshot.text.span(params.range))
     found = [action for find in SOURCES for action in find(site) if _is_wanted(action.kind, only)]
     if only is not None and _is_wanted(types.CodeActionKind.SourceFixAll, only):
         found += fixes.find_all(site)
-    return [_code_action(snapshot, params.range, action) for action in found]
+    if client.action_literals:
+        return [_code_action(snapshot, params.range, action) for action in found]
+    return [
+        types.Command(
+            action.title,
+            APPLY_EDIT,
+            arguments=[snapshot.uri, snapshot.version, _workspace_edit(snapshot, _edits(action))],
+        )
+        for action in found
+    ]
 
 
 @request(types.CODE_ACTION_RESOLVE)
 def resolve(snapshot: Snapshot, action: types.CodeAction) -> types.CodeAction:
-    """The edits of an action that was chosen, if the text is still as it was."""
-    data = cast("dict[str, Any]", action.data)
-    if data["version"] == snapshot.version:
-        start, end = data["span"]
+    """The edits of an action that was chosen, if the text is still as it was. Raises JsonRpcInvalidParams for one that
+    was never offered."""
+    match action.data:
+        case {"version": version, "span": [int() as start, int() as end]}:
+            pass
+        case _:
+            raise JsonRpcInvalidParams("the action is none that the server has offered")
+    if version == snapshot.version:
         site = Site(snapshot, (start, end))
         chosen = next((each for find in SOURCES for each in find(site) if each.title == action.title), None)
         if chosen is not None:
@@ -81,7 +98,7 @@ def _code_action(snapshot: Snapshot, range_: types.Range, action: Action) -> typ
         action.title,
         action.kind,
         diagnostics=[lsp_diagnostic(snapshot, diagnostic) for diagnostic in action.mends] or None,
-        is_preferred=True if action.preferred else None,
+        is_preferred=True if action.preferred and snapshot.client.preferred_actions else None,
         edit=None if later else _workspace_edit(snapshot, _edits(action)),
         data={"uri": snapshot.uri, "version": snapshot.version, "span": snapshot.text.span(range_)} if later else None,
     )

@@ -108,6 +108,7 @@ class Server(LanguageServer):
     async def _take_messages(self, reader: asyncio.StreamReader) -> None:
         async for content in frames.contents(reader):
             self.protocol.receive(content)
+            await asyncio.sleep(0)  # a request begins before the next message changes what it is about
 
     def end(self, status: int) -> None:
         """Leave, with an exit status."""

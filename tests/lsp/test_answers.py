@@ -446,6 +446,23 @@ def test_a_document_of_which_nothing_was_heard_is_not_made_up() -> None:
         assert talk.text() == PARAMS  # it is not open
 
 
+def test_tokens_are_of_the_text_that_they_were_asked_for() -> None:
+    """An editor moves them by what was typed since: those of a later text would be moved twice."""
+    document = {"textDocument": {"uri": URI}}
+    range_ = {"start": place(0, 0), "end": place(9, 0)}
+    with Talk() as talk:
+        talk.send(opened("SOLID { SPHERE { } }\n" * 9))
+        asked = request(1, "textDocument/semanticTokens/full", document)
+        asked += request(2, "textDocument/semanticTokens/range", {**document, "range": range_})
+        talk.send(asked + changed({"text": "SOLID { }"}))
+        for answer in (talk.answer(1), talk.answer(2)):
+            if "error" in answer:  # unless it was ready when it was asked for
+                assert answer["error"]["code"] == CONTENT_MODIFIED
+            else:
+                assert len(answer["result"]["data"]) == 9 * 2 * 5
+        assert len(talk.ask(3, request(3, "textDocument/semanticTokens/full", document))["data"]) == 5
+
+
 # --- the server's own questions ---------------------------------------------------------------------------------------
 
 

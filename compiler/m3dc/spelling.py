@@ -12,7 +12,11 @@ _SHORTEST = 4  # a shorter word is one edit away from too many others
 
 
 def nearest(word: str, known: Collection[str]) -> str | None:
-    """The known keyword that a word looks most like, if it looks like any."""
+    """The known keyword that a word looks most like, if it looks like any: a single one that it is one slip away from,
+    or else the most alike."""
+    slips = [other for other in known if _is_one_slip(word.upper(), other)] if len(word) >= _SHORTEST else []
+    if len(slips) == 1 and word.upper() not in known:
+        return slips[0]
     return next(iter(get_close_matches(word.upper(), sorted(known), 1, _ALIKE)), None)
 
 

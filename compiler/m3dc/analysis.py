@@ -5,17 +5,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
 from tree_sitter import Tree
 
 from . import ast, program
 from .check import check
 from .collection import paused
-from .compiler import Result, has_errors, in_order
+from .compiler import Result, has_errors, in_order, noted
 from .diagnostics import Diagnostic, Findings
 from .evaluate import Evaluator, World
 from .ir import SceneIR
@@ -25,8 +23,6 @@ from .memo import Steps
 from .places import Places
 from .source import Source
 from .syntax import Parsed, parse
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,18 +78,11 @@ class Analyser:
         syntax = parse(source, findings, self._parsed)
         items: list[ast.TopLevel] = []
         checked: list[program.Item] = []
-        right = check(source, _noted(syntax.items, items), syntax.faulty, findings, self._checks)
-        world = Evaluator(findings).run(_noted(right, checked), syntax.faulty, self._runs)
+        right = check(source, noted(syntax.items, items), syntax.faulty, findings, self._checks)
+        world = Evaluator(findings).run(noted(right, checked), syntax.faulty, self._runs)
         if not has_errors(findings.found):
             self._lints.begin()
-            lint(world, findings, self._lints)
+            lint(world, checked, findings, self._lints)
         places = self._parsed.places
         diagnostics = in_order(map(places.diagnostic, findings.found), source)
         return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, places, diagnostics)
-
-
-def _noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:
-    """The same things; each is added to the notes as it passes."""
-    for thing in things:
-        notes.append(thing)
-        yield thing

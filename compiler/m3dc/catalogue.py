@@ -424,7 +424,8 @@ CATALOGUE: dict[str, Entry] = {
     ),
     "M3D0512": _warning(
         "Only the last {} counts",
-        "The same statement stands twice in one block; each overwrites the one before it.",
+        "The same statement stands twice in one block; each overwrites the one before it. So does a SURFACE or SOURCE that "
+        "is a copy of a variable.",
         f"{_LIT} SOLID {{ SPHERE {{ RADIUS 2 RADIUS 3 }} }}",
         f"{_LIT} SOLID {{ SPHERE {{ RADIUS 3 }} }}",
     ),
@@ -433,5 +434,116 @@ CATALOGUE: dict[str, Entry] = {
         "There is neither a LIGHT nor a SKY: solids show by ambient light alone, nearly black.",
         "SOLID { SPHERE { } }",
         "SOLID { SPHERE { } } SCENE { SKY { } }",
+    ),
+    # --- without effect, or in another unit ---------------------------------------------------------------------------
+    "M3D0514": _warning(
+        "PHONG has no effect without SFACETS",
+        "PHONG interpolates the normals at the corners of facets. FACETS gives none; SFACETS does.",
+        f"{_LIT} SOLID {{ POLYGONS {{ PHONG {_TRIANGLE} FACETS {{ 1 0 1 2 }} }} }}",
+        f"{_LIT} SOLID {{ POLYGONS {{ PHONG {_TRIANGLE} SFACETS {{ 1 0 1 2 <0,0,1> <0,0,1> <0,0,1> }} }} }}",
+    ),
+    "M3D0515": _warning(
+        "{} has no effect on this light",
+        "ANGLE, EXPONENT and ATTENUATION are about a POINT light. Its DIRECTION, ZENITH and AZIMUTH count only where ANGLE "
+        "or EXPONENT narrow it: where it stands is its FROM.",
+        "SOLID { SPHERE { } } LIGHT { SOURCE { FROM < 0, 0, 9 > TO < 0, 0, 0 > ANGLE 20 } }",
+        "SOLID { SPHERE { } } LIGHT { SOURCE { POINT FROM < 0, 0, 9 > TO < 0, 0, 0 > ANGLE 20 } }",
+    ),
+    "M3D0516": _warning(
+        "{} has no effect without a WAVE",
+        "WAVES and RIPPLES are the sum of the sources of waves that stand in them; there is none by itself.",
+        f"{_LIT} SOLID {{ PLANE {{ }} SURFACE {{ TEXTURE {{ WAVES {{ }} }} }} }}",
+        f"{_LIT} SOLID {{ PLANE {{ }} SURFACE {{ TEXTURE {{ WAVES {{ WAVE {{ FREQ 2 }} }} }} }} }}",
+    ),
+    "M3D0517": _warning(
+        "{} has no effect in this texture",
+        "Every texture can be given every statement, but each kind uses only some of them. With COLORS, COLOR is not used.",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ TEXTURE {{ CHECKER {{ TURBULENCE 2 }} }} }} }}",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ TEXTURE {{ MARBLE {{ TURBULENCE 2 }} }} }} }}",
+    ),
+    "M3D0518": _warning(
+        "{} has no effect on a PLANE",
+        "UBLEND and VBLEND change a colour from one side of a primitive to the other. A PLANE has no sides.",
+        f"{_LIT} SOLID {{ PLANE {{ }} SURFACE {{ TEXTURE {{ UBLEND {{ COLOR < 0, 0, 1 > }} }} }} }}",
+        f"{_LIT} SOLID {{ RECTANGLE {{ }} SURFACE {{ TEXTURE {{ UBLEND {{ COLOR < 0, 0, 1 > }} }} }} }}",
+    ),
+    "M3D0519": _warning(
+        "BACKGROUND is never seen",
+        "Where a ray meets nothing the SKY is seen; without one, the HAZE; without either, the BACKGROUND.",
+        "SCENE { BACKGROUND < 0, 0, 0.5 > SKY { } }",
+        "SCENE { SKY { ZENITHCOLOR < 0, 0, 0.5 > } }",
+    ),
+    "M3D0520": _warning(
+        "Ambient light is not sampled",
+        "Light from around is sampled with both: NSAMPLES, the number of rays from each surface, and a DEPTH of 2 or more. "
+        "Otherwise it is constant.",
+        "SOLID { SPHERE { } } SCENE { SKY { } AMBIENT { NSAMPLES 8 } }",
+        "SOLID { SPHERE { } } SCENE { SKY { } AMBIENT { NSAMPLES 8 DEPTH 2 } }",
+    ),
+    "M3D0521": _hint(
+        "NOSHADOWS has no effect without SHADOWS",
+        "Lights cast shadows only if the SCENE says SHADOWS, or a renderer is asked for them.",
+        "SOLID { SPHERE { } } SCENE { SKY { SUN { NOSHADOWS } } }",
+        "SOLID { SPHERE { } } SCENE { SHADOWS SKY { SUN { NOSHADOWS } } }",
+    ),
+    "M3D0522": _warning(
+        "{} has no effect on this surface",
+        "HARD and METALLIC are about light that is reflected specularly, and need a SPECULAR above 0.",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ SPECULAR 0 HARD 0.9 }} }}",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ SPECULAR 0.5 HARD 0.9 }} }}",
+    ),
+    "M3D0523": _hint(
+        "This {} changes the one before it",
+        "A second SURFACE or SOURCE in braces does not take the place of the first: it changes what it names and keeps the "
+        "rest.",
+        f"VARIABLES {{ SURFACE matt; }} matt = {{ ROUGH 1 }} {_LIT} SOLID {{ SPHERE {{ }} SURFACE matt SURFACE {{ SPECULAR 0 }} }}",
+        f"VARIABLES {{ SURFACE matt; }} matt = {{ ROUGH 1 }} {_LIT} SOLID {{ SPHERE {{ }} SURFACE matt {{ SPECULAR 0 }} }}",
+    ),
+    "M3D0524": _warning(
+        "Value is never used",
+        "A variable is given another value before anything uses this one, or is not used any more. An assignment counts "
+        "from its place in the file on.",
+        f"VARIABLES {{ NUMBER size; }} size = 2 size = 3 {_LIT} SOLID {{ SPHERE {{ RADIUS size }} }}",
+        f"VARIABLES {{ NUMBER size; }} size = 3 {_LIT} SOLID {{ SPHERE {{ RADIUS size }} }}",
+    ),
+    "M3D0525": _warning(
+        "Temperatures look like kelvin",
+        "The temperatures of a PROFILE are in degrees Celsius. No air is as hot as these.",
+        "SCENE { SKY { } MIRAGE { PROFILE { 0 283 5 284 20 285 } } }",
+        "SCENE { SKY { } MIRAGE { PROFILE { 0 9.85 5 10.85 20 11.85 } } }",
+    ),
+    "M3D0526": _warning(
+        "Nothing stands before the camera",
+        "Every solid and every visible light is behind the eye, or beside what it sees. VIEW's FROM is where the eye is, TO "
+        "what it looks at, FOV how wide.",
+        "SOLID { SPHERE { CENTER < 90, 0, 6 > } } SCENE { SKY { } VIEW { FROM < 20, 0, 6 > TO < 0, 0, 6 > } }",
+        "SOLID { SPHERE { CENTER < 90, 0, 6 > } } SCENE { SKY { } VIEW { FROM < 20, 0, 6 > TO < 90, 0, 6 > } }",
+    ),
+    "M3D0527": _warning(
+        "Camera inside a SPHERE",
+        "The eye is in a sphere that nothing else reaches into and no light stands in: only its inside is seen.",
+        "SOLID { SPHERE { CENTER < 20, 0, 6 > RADIUS 2 } } SCENE { SKY { } VIEW { FROM < 20, 0, 6 > TO < 0, 0, 6 > } }",
+        "SOLID { SPHERE { CENTER < 0, 0, 6 > RADIUS 2 } } SCENE { SKY { } VIEW { FROM < 20, 0, 6 > TO < 0, 0, 6 > } }",
+    ),
+    "M3D0528": _hint(
+        "Angle looks like radians",
+        "Angles are in degrees. These are: a common part of a turn as it is in radians, such as 1.57; or rotations of a "
+        "scene that has none of more than 6.28 degrees.",
+        f"{_LIT} SOLID {{ SPHERE {{ TRANSFORM {{ ROTZ 1.57 }} }} }}",
+        f"{_LIT} SOLID {{ SPHERE {{ TRANSFORM {{ ROTZ 90 }} }} }}",
+    ),
+    "M3D0529": _warning(
+        "{} has no effect in a scene of planes",
+        "SNOW and GRADIENT go by the heights of the scene, from its lowest to its highest point, in which planes do not "
+        "count: they have no end.",
+        f"{_LIT} SOLID {{ PLANE {{ }} SURFACE {{ TEXTURE {{ SNOW {{ ELEVATION 0.5 }} }} }} }}",
+        f"{_LIT} SOLID {{ PLANE {{ }} SURFACE {{ TEXTURE {{ SNOW {{ ELEVATION 0 }} }} }} }} SOLID {{ SPHERE {{ }} }}",
+    ),
+    "M3D0530": _warning(
+        "{}",
+        "The components of a colour go from 0 to 1, and these seem to go from 0 to 255: divide them by 255. What is above 1 "
+        "counts as 1.",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ COLOR < 255, 128, 0 > }} }}",
+        f"{_LIT} SOLID {{ SPHERE {{ }} SURFACE {{ COLOR < 1, 0.502, 0 > }} }}",
     ),
 }

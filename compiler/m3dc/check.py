@@ -272,22 +272,33 @@ class Checker:
         members: list[program.Member] = []
         broken: set[str] = set()
         seen: dict[str, Span] = {}
-        overwritten: dict[str, Span] = {}
+        standing: dict[str, list[Span]] = {}
         for item in body.items:
             member = self._member(item, block, seen)
             if member is not None:
                 members.append(member)
-                if _overwrites(member, block):
-                    keyword = member.entry.keyword
-                    if keyword in overwritten:
-                        related = (Related(self._findings.absolute(member.span), "this one counts"),)
-                        alike = self._text(overwritten[keyword]) == self._text(member.span)
-                        fix = Fix(f"Remove this {keyword}", self._cut(overwritten[keyword]), "", certain=alike)
-                        self._findings.add("M3D0512", overwritten[keyword], fill=keyword, related=related, fix=fix)
-                    overwritten[keyword] = member.span
+                self._weigh(member, block, standing)
             elif not isinstance(item, ast.Assignment):
                 broken.add(item.keyword.text)
         return tuple(members), frozenset(broken)
+
+    def _weigh(self, member: program.Member, block: language.Block, standing: dict[str, list[Span]]) -> None:
+        """Report the members that a new one overwrites, or that it changes, of those standing by keyword."""
+        keyword = member.entry.keyword
+        if _overwrites(member, block):
+            related = (Related(self._findings.absolute(member.span), "this one counts"),)
+            for span in standing.get(keyword, ()):
+                alike = self._text(span) == self._text(member.span)
+                fix = Fix(f"Remove this {keyword}", self._cut(span), "", certain=alike)
+                self._findings.add("M3D0512", span, fill=keyword, related=related, fix=fix)
+            standing[keyword] = [member.span]
+        elif isinstance(member, program.Block) and _is_one_structure(member.entry):
+            before = standing.setdefault(keyword, [])
+            if before:
+                related = (Related(self._findings.absolute(before[-1]), "it keeps what this one says"),)
+                detail = "what it does not name stays as it was; one block can say it all"
+                self._findings.add("M3D0523", member.keyword.span, detail, fill=keyword, related=related)
+            before.append(member.span)
 
     def _member(self, item: ast.Item, block: language.Block, seen: dict[str, Span]) -> program.Member | None:
         match item:
@@ -436,7 +447,15 @@ def _overwrites(member: program.Member, block: language.Block) -> bool:
     """Whether a member takes the place of an earlier one with its keyword."""
     if isinstance(member, program.Table):
         return member.entry.keyword == "PROFILE"
-    return isinstance(member, program.Statement) and not member.entry.is_flag and block.keyword != "TRANSFORM"
+    if isinstance(member, program.Block):
+        return member.source is not None and _is_one_structure(member.entry)
+    return not member.entry.is_flag and block.keyword != "TRANSFORM"
+
+
+def _is_one_structure(entry: language.Block) -> bool:
+    """Whether a block makes the one SURFACE or SOURCE there is: in braces it changes it, by name it replaces it. A
+    TRANSFORM that a name replaces is found where transformations are made."""
+    return entry.variable and not entry.adds and entry.keyword != "TRANSFORM"
 
 
 def _is_known(number: ast.Number) -> bool:

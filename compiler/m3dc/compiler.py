@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple, TypeVar
 
 from .check import check
 from .collection import paused
@@ -14,8 +14,11 @@ from .ir import SceneIR
 from .lint import lint
 from .lower import lower
 from .places import Places
+from .program import Item
 from .source import Source
 from .syntax import parse
+
+T = TypeVar("T")
 
 
 class Result(NamedTuple):
@@ -43,12 +46,19 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
         source = Source(source.encode() if isinstance(source, str) else source, name)
     findings = Findings()
     syntax = parse(source, findings)
-    program = check(source, syntax.items, syntax.faulty, findings)
-    world = Evaluator(findings).run(program, syntax.faulty)
+    program: list[Item] = []
+    world = Evaluator(findings).run(noted(check(source, syntax.items, syntax.faulty, findings), program), syntax.faulty)
     ir = lower(world, source.name, Places())
     if not has_errors(findings.found):
-        lint(world, findings)
+        lint(world, program, findings)
     return Result(ir, in_order(findings.found, source), source)
+
+
+def noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:
+    """The same things; each is added to the notes as it passes."""
+    for thing in things:
+        notes.append(thing)
+        yield thing
 
 
 def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
@@ -59,4 +69,21 @@ def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
 def in_order(diagnostics: Iterable[Diagnostic], source: Source) -> tuple[Diagnostic, ...]:
     """Each diagnostic once, in the order of the text, but for those that the text allows."""
     found = sorted(dict.fromkeys(diagnostics), key=lambda diagnostic: diagnostic.span)
-    return tuple(without_allowed(found, source))
+    return tuple(without_allowed(_with_cause(found), source))
+
+
+def _with_cause(found: list[Diagnostic]) -> list[Diagnostic]:
+    """The diagnostics, where a variable without a value is out of range with both in one."""
+    unassigned = {d.span: d for d in found if d.code == "M3D0504"}
+    wrong = {d.span for d in found if d.code == "M3D0401"} & unassigned.keys()
+    if not wrong:
+        return found
+    whole: list[Diagnostic] = []
+    for diagnostic in found:
+        if diagnostic.span not in wrong:
+            whole.append(diagnostic)
+        elif diagnostic.code != "M3D0504":
+            cause = unassigned[diagnostic.span]
+            detail = f"{diagnostic.detail}; {cause.detail}"
+            whole.append(diagnostic._replace(detail=detail, related=(*diagnostic.related, *cause.related)))
+    return whole

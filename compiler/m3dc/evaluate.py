@@ -19,12 +19,14 @@ from tree_sitter_m3d.table import LANGUAGE, Default
 
 from . import ast, program
 from .diagnostics import Findings, Fix
+from .effects import idle
 from .finish import FINISH
 from .ir import Span
 from .memo import Ledger, Steps
 from .reach import check_reach
 from .size import Size
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
+from .units import looks_like_bytes
 from .values import Record, TableValue, Value, Vector, spelled
 
 T = TypeVar("T")
@@ -192,6 +194,7 @@ class Evaluator:
                 case program.Block():
                     self._nested(record, member)
         record.parts += tuple(added)
+        record.idle = idle(record, members)
 
     def _nested(self, record: Record, block: program.Block) -> None:
         keyword = block.entry.keyword
@@ -310,7 +313,7 @@ class Evaluator:
         if all(part in bounds.interval for part in parts):
             return value
         shown = ", ".join(f"{part:g}" for part in parts)
-        fix = None
+        fix, code = None, _SUBSTITUTED.get(bounds.policy, "")
         if bounds.policy == "error":
             self._findings.add(
                 "M3D0401",
@@ -334,9 +337,12 @@ class Evaluator:
             value = (clamped[0], clamped[1], clamped[2]) if isinstance(value, tuple) else clamped[0]
             detail = f"{entry.keyword} {shown} is replaced by {', '.join(f'{part:g}' for part in clamped)}"
             fix = _written(argument, value)
+            if expected.kind == "color" and looks_like_bytes(parts):
+                code, (detail, fraction) = "M3D0530", _of_bytes(shown, parts)
+                fix = _written(argument, fraction)
         else:
             detail = f"{entry.keyword} is {shown}"
-        self._findings.add(_SUBSTITUTED[bounds.policy], argument.span, detail, fill=bounds.message, fix=fix)
+        self._findings.add(code, argument.span, detail, fill=bounds.message, fix=fix)
         return value
 
     def _value(self, argument: ast.Argument) -> float | Vector:
@@ -438,8 +444,10 @@ class Evaluator:
             if bounds.policy == "error":
                 self._row_error("M3D0401", value, int(outside[0]), f"found {shown}", fill=bounds.message)
                 return None
-            detail = f"{shown} is set to the nearest limit"
-            self._row_error("M3D0422", value, int(outside[0]), detail, fill=bounds.message)
+            code, detail = "M3D0422", f"{shown} is set to the nearest limit"
+            if argument.kind == "color" and looks_like_bytes(part[outside[0]].tolist()):
+                code, (detail, _) = "M3D0530", _of_bytes(shown, part[outside[0]].tolist())
+            self._row_error(code, value, int(outside[0]), detail, fill=bounds.message)
             rows = value.rows.copy()
             rows[:, columns] = part.clip(low, high)
             value = value._replace(rows=rows)
@@ -457,6 +465,15 @@ def _turned(argument: ast.Argument, value: float | Vector, interval: language.In
     turned = interval.low + (value - interval.low) % TURN
     fix = _written(argument, float(f"{turned:.12g}"))
     return None if fix is None else fix._replace(certain=True)
+
+
+def _of_bytes(shown: str, components: Sequence[float]) -> tuple[str, Vector]:
+    """What to say of a colour that seems to go from 0 to 255, and what it would be from 0 to 1."""
+    red, green, blue = (round(component / 255, 3) for component in components)
+    detail = (
+        f"{shown} is set to the nearest limit; if it is out of 255, divided by that it is {red:g}, {green:g}, {blue:g}"
+    )
+    return detail, (red, green, blue)
 
 
 def _written(argument: ast.Argument, value: float | Vector) -> Fix | None:

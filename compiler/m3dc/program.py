@@ -91,6 +91,14 @@ def _leaves(body: tuple[Member, ...]) -> Iterator[Statement | Table]:
             yield member
 
 
+def blocks(body: tuple[Member, ...]) -> Iterator[Block]:
+    """Every block of a body, however deep it stands, in the order of the text."""
+    for member in body:
+        if isinstance(member, Block):
+            yield member
+            yield from blocks(member.body)
+
+
 class Item(NamedTuple):
     """One top-level item and the byte it starts at; the spans below it are relative to that, and elsewhere to `base`
     (see places.py)."""

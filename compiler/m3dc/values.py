@@ -63,12 +63,14 @@ class Record:
     `values` are the statements' arguments by keyword (a flag is a bool), `places` where each was last written;
     `nested` are the blocks there is one of (SURFACE, VIEW, ...), `parts` those there are many of (primitives,
     textures, waves); `transform` is the product of all TRANSFORM blocks, or, for a TRANSFORM, its own. `broken` are
-    the keywords of members that were wrong, of which no more is to be said; `mesh` is what VERTICES and FACETS make.
+    the keywords of members that were wrong, of which no more is to be said; `idle` those of statements that had no
+    effect when they were written (effects.py); `mesh` is what VERTICES and FACETS make.
     """
 
     __slots__ = (
         "block",
         "broken",
+        "idle",
         "mesh",
         "nested",
         "parts",
@@ -89,6 +91,7 @@ class Record:
         self.tables: dict[str, TableValue] = {}
         self.transform: Transform = IDENTITY
         self.broken: frozenset[str] = frozenset()
+        self.idle: frozenset[str] = frozenset()
         self.mesh: Mesh | None = None
 
     def copy(self, span: Span) -> Record:
@@ -103,6 +106,7 @@ class Record:
         new.tables = dict(self.tables)
         new.transform = self.transform
         new.broken = self.broken
+        new.idle = self.idle
         new.mesh = self.mesh
         return new
 

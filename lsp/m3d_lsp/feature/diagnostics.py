@@ -17,7 +17,10 @@ SEVERITY = {
     "hint": types.DiagnosticSeverity.Hint,
 }
 # What has no effect is shown faded.
-WITHOUT_EFFECT = {"M3D0503", "M3D0512", "M3D0204"}
+WITHOUT_EFFECT = {
+    "M3D0204", "M3D0503", "M3D0512", "M3D0514", "M3D0515", "M3D0516", "M3D0517", "M3D0518", "M3D0519", "M3D0520",
+    "M3D0521", "M3D0522", "M3D0524", "M3D0529",
+}  # fmt: skip
 
 
 def of(snapshot: Snapshot) -> list[types.Diagnostic]:

@@ -111,7 +111,8 @@ QUIET = (
     # A name first, and then what changes it in the same block; a copied SOLID's surface replaced.
     "VARIABLES { SURFACE a; SOLID b; } a = { ROUGH 1 } b = { SPHERE { } SURFACE { HARD 1 } } SOLID b { SURFACE a }",
     # Angles, colours and temperatures that are what they are.
-    "SOLID { SPHERE { TRANSFORM { ROTZ 1.5 ROTX 45 } } } SCENE { SKY { SUN { ZENITH 1.5 } } VIEW { TO < 0, 0, 0 > FOV 1.57 } }",
+    "SOLID { SPHERE { TRANSFORM { ROTZ 1.5 ROTX 45 } } } "
+    "SCENE { SKY { SUN { ZENITH 1.5 } } VIEW { TO < 0, 0, 0 > FOV 1.57 } }",
     "SOLID { SPHERE { TRANSFORM { ROTZ 0.05 } } }",
     "SOLID { SPHERE { } SURFACE { COLOR < 1, 1, 0 > } } SCENE { SKY { } MIRAGE { PROFILE { 0 80 5 40 20 30 } } }",
     # In a ball with a lamp, or on its skin.

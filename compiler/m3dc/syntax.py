@@ -41,6 +41,8 @@ MOST_FAULTS = 200  # of form, which are dearer to explain
 # A text of which, long tables aside, so many bytes are judged by its head first.
 VERY_LONG = 4_000_000
 HEAD = 500_000
+MOST_LOOSE = 4_000
+_LOOSE = ("identifier", "number")
 
 
 class Syntax(NamedTuple):
@@ -94,8 +96,16 @@ def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
         return None
     head = data[: data.find(b"\n", HEAD) + 1 or HEAD]
     tree = _tree(head, long_tables.outside(head))
-    faulty = sum(node.has_error for node in tree.root_node.children)
-    return head if faulty > MOST_FAULTS else None
+    root = tree.root_node
+    faulty = sum(node.has_error for node in root.children)
+    loose = sum(_loose_tokens(node) for node in (root, *root.children) if node.is_error)
+    return head if faulty > MOST_FAULTS or loose > MOST_LOOSE else None
+
+
+def _loose_tokens(error: Node) -> int:
+    """How many tokens of a stretch that could not be read are part of nothing. A block that is not closed, as the last
+    one of a head never is, has few of its own."""
+    return sum(not node.is_named or node.is_error or node.type in _LOOSE for node in error.children)
 
 
 def _items(tree: Tree, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:

@@ -9,7 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tree_sitter import Language, Parser, Tree
 
+import m3dc
 import tree_sitter_m3d
+from m3dc.syntax import HEAD
 from tree_sitter_m3d.formal import first_error
 
 DEEP = 10_000
@@ -80,6 +82,20 @@ def test_any_tokens(tokens: list[str]) -> None:
     tree = PARSER.parse(text.encode())
     assert tree.root_node.end_byte <= len(text)
     first_error(text)
+
+
+@pytest.mark.parametrize("line", [b"ab $ {} < 3 ; foo\n", b"{", b"word ", b"a#b9!\n?>,;", b"SOLID { SPHER } }\n"])
+def test_of_much_junk_only_the_beginning_is_read(line: bytes) -> None:
+    """The rest costs nothing: what is found is found in the first half megabyte."""
+    much = m3dc.compile(line * (6_000_000 // len(line)))
+    assert not much.ok
+    assert max(diagnostic.span[1] for diagnostic in much.diagnostics) <= HEAD + len(line)
+
+
+def test_a_long_scene_that_is_not_closed_is_read_to_its_end() -> None:
+    text = b"SOLID {\n" + (b"SPHERE { RADIUS 1 }" + b" " * 400 + b"\n") * 10_000 + b"SPHERE { RADIUS x } }"
+    (error,) = (d for d in m3dc.compile(text).diagnostics if d.severity == "error")
+    assert text[slice(*error.span)] == b"x"
 
 
 def test_a_broken_list_of_a_million_numbers() -> None:

@@ -17,6 +17,9 @@ from .settings import Settings
 from .snapshot import Snapshot
 from .text import Text
 
+# How many documents are analysed at once, at the most.
+ANALYSES = 4
+
 WHOLE = types.TextDocumentContentChangeWholeDocument
 
 # What editors take without a word to the person, who was told once.
@@ -24,7 +27,7 @@ CONTENT_MODIFIED = types.LSPErrorCodes.ContentModified.value
 
 
 class Documents:
-    """The open documents by URI. They are analysed one at a time, in one thread."""
+    """The open documents by URI. Each is analysed in a thread, so that a very large one does not hold up the others."""
 
     def __init__(self, looked_at: Callable[[Document, Snapshot], None], lost: Callable[[str], None]) -> None:
         """`looked_at` is called with each new snapshot of a document, `lost` once when the text of an open document is
@@ -36,7 +39,7 @@ class Documents:
         self._tell_lost = lost
         self._documents: dict[str, Document] = {}
         self._lost: set[str] = set()
-        self._executor = ThreadPoolExecutor(1, "analysis")
+        self._executor = ThreadPoolExecutor(ANALYSES, "analysis")
 
     def __iter__(self) -> Iterator[Document]:
         return iter(self._documents.values())

@@ -463,6 +463,17 @@ def test_tokens_are_of_the_text_that_they_were_asked_for() -> None:
         assert len(talk.ask(3, request(3, "textDocument/semanticTokens/full", document))["data"]) == 5
 
 
+def test_a_large_document_keeps_a_small_one_from_nothing() -> None:
+    large = {"uri": "file:///nowhere/large.m3d", "languageId": "m3d", "version": 1}
+    large["text"] = "SOLID { SPHERE { RADIUS 1 } }\n" * 20_000
+    with Talk() as talk:
+        talk.send(notification("textDocument/didOpen", {"textDocument": large}) + opened())
+        hover = {"textDocument": {"uri": URI}, "position": place(3, 10)}
+        assert talk.ask(1, request(1, "textDocument/hover", hover))
+        first = talk.asked("textDocument/publishDiagnostics")
+        assert first["params"]["uri"] == URI
+
+
 # --- the server's own questions ---------------------------------------------------------------------------------------
 
 

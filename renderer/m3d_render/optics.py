@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render import _kernel
-from m3d_render.rendering import SceneError
+from m3d_render.rendering import MOST_FINER, SceneError, whole
 from m3dc.ir import SceneIR
 
 
@@ -44,11 +44,11 @@ def trace_paths(
     `at` are the horizontal distances whose heights are wanted; `finer` divides each interval of the temperature
     profile into so many layers. For every layer crossing of a ray see `trace_crossings`.
     """
-    angles = np.atleast_1d(_numbers(angles_rad))
+    angles = _angles(angles_rad)
     distances = _numbers([] if at is None else at)
     try:
         ends, tips, arcs, heights = _kernel.trace_paths(
-            ir, _height(ir, eye_height), np.tan(angles), distances.tolist(), finer
+            ir, _height(ir, eye_height), np.tan(angles), distances.tolist(), _finer(finer)
         )
     except ValueError as error:
         raise SceneError(str(error)) from None
@@ -76,7 +76,7 @@ EARTH_CURVATURE: float = 1 / _kernel.EARTH_RADIUS
 def air_layers(ir: SceneIR, finer: int = 1) -> AirLayers:
     """The layers that rays are traced through, up to the MIRAGE block's ELEVATION; none without a MIRAGE."""
     try:
-        bottom, top, effective = _kernel.air_layers(ir, finer).T.copy()
+        bottom, top, effective = _kernel.air_layers(ir, _finer(finer)).T.copy()
     except ValueError as error:
         raise SceneError(str(error)) from None
     return AirLayers(bottom, top, effective + EARTH_CURVATURE, effective)
@@ -86,10 +86,22 @@ def trace_crossings(
     ir: SceneIR, angle_rad: float, eye_height: float | None = None, finer: int = 1
 ) -> NDArray[np.float64]:
     """Every layer crossing of one ray: rows of (distance, height), the eye first and the end last."""
+    (angle,) = _angles([angle_rad])
     try:
-        return _kernel.trace_crossings(ir, _height(ir, eye_height), float(np.tan(angle_rad)), finer)
+        return _kernel.trace_crossings(ir, _height(ir, eye_height), float(np.tan(angle)), _finer(finer))
     except ValueError as error:
         raise SceneError(str(error)) from None
+
+
+def _angles(radians: Iterable[float]) -> NDArray[np.float64]:
+    angles = np.atleast_1d(_numbers(radians))
+    if not np.isfinite(angles).all():
+        raise SceneError("an angle is no finite number")
+    return angles
+
+
+def _finer(finer: int) -> int:
+    return whole("finer", finer, 1, MOST_FINER)
 
 
 def _numbers(values: Iterable[float]) -> NDArray[np.float64]:

@@ -22,6 +22,10 @@ LAYERS: dict[str, int] = dict(_kernel.LAYERS)
 """The extra outputs, and how many numbers a pixel each has."""
 
 
+MOST_FINER = 10_000
+"""Layers that an interval of the temperature profile may be divided into."""
+
+
 class SceneError(ValueError):
     """The scene cannot be rendered as it is, or not as asked."""
 
@@ -147,8 +151,8 @@ class Prepared:
         scene = self.ir.scene
         view = scene.view
         width, height, threads = options.get("width"), options.get("height"), options.get("threads")
-        columns = _whole("width", view.width if width is None else width, 1, LARGEST_SIDE)
-        rows = _whole("height", view.height if height is None else height, 1, LARGEST_SIDE)
+        columns = whole("width", view.width if width is None else width, 1, LARGEST_SIDE)
+        rows = whole("height", view.height if height is None else height, 1, LARGEST_SIDE)
         part = _part(self.ir, options, columns, rows)
         depth, shadows, log_scale = options.get("depth"), options.get("shadows"), options.get("log_scale")
         refract_reflections = options.get("refract_reflections")
@@ -161,13 +165,13 @@ class Prepared:
             rows=part.bottom - part.top + 1,
             straight=options.get("straight", False),
             shadows=scene.shadows if shadows is None else bool(shadows),
-            depth=_whole("depth", scene.depth if depth is None else depth, 1, 1_000_000_000),
+            depth=whole("depth", scene.depth if depth is None else depth, 1, 1_000_000_000),
             log_scale=float(scene.log_scale if log_scale is None else log_scale),
             normalize=options.get("normalize", False),
-            samples=_whole("samples", options.get("samples", 1), 1, MOST_SAMPLES),
+            samples=whole("samples", options.get("samples", 1), 1, MOST_SAMPLES),
             refract_reflections=scene.refract_reflections if refract_reflections is None else bool(refract_reflections),
             layers=list(dict.fromkeys(aov)),
-            threads=usable_threads() if threads is None else _whole("threads", threads, 1, 4096),
+            threads=usable_threads() if threads is None else whole("threads", threads, 1, 4096),
         )
 
     def _check_observer(self) -> None:
@@ -234,7 +238,7 @@ def prepare(ir: SceneIR, *, finer: int = 1) -> Prepared:
     """Builds the kernel's scene. `finer` divides each interval of the temperature profile into so many layers."""
     started = time.perf_counter()
     try:
-        kernel = _kernel.Scene(ir, _whole("finer", finer, 1, 10_000))
+        kernel = _kernel.Scene(ir, whole("finer", finer, 1, MOST_FINER))
     except ValueError as error:
         raise SceneError(str(error)) from None
     return Prepared(ir, kernel, time.perf_counter() - started)
@@ -248,7 +252,8 @@ def usable_threads() -> int:
         return os.cpu_count() or 1
 
 
-def _whole(name: str, value: int, least: int, most: int) -> int:
+def whole(name: str, value: int, least: int, most: int) -> int:
+    """A whole number within its range. Raises SceneError outside of it."""
     if not least <= value <= most:
         raise SceneError(f"{name} must be from {least} to {most}, not {value}")
     return int(value)

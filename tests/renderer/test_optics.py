@@ -145,6 +145,14 @@ def test_what_cannot_be_traced_is_said():
         trace_paths(SceneBuilder().build(), [0.0])
     with pytest.raises(SceneError, match="outside of the temperature profile"):
         trace_paths(merman_air(), [0.0], eye_height=20.0)
+    for angle in (math.nan, math.inf):
+        with pytest.raises(SceneError, match="an angle is no finite number"):
+            trace_paths(merman_air(), [0.0, angle])
+        with pytest.raises(SceneError, match="an angle is no finite number"):
+            trace_crossings(merman_air(), angle)
+    for finer in (0, -1, 10_001, 10**12):
+        with pytest.raises(SceneError, match="finer must be from 1 to 10000"):
+            trace_paths(merman_air(), [0.0], finer=finer)
     with pytest.raises(SceneError, match=r"above -273\.15"):
         trace_paths(SceneBuilder(eye=(0, 0, 1)).mirage([(0, 0), (2, -300), (4, 0)]).build(), [0.0])
 

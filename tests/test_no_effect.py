@@ -118,6 +118,10 @@ QUIET = (
     # In a ball with a lamp, or on its skin.
     "SOLID { SPHERE { CENTER < 20, 0, 6 > RADIUS 3 } } SCENE { } LIGHT { SOURCE { POINT FROM < 19, 0, 6 > } }",
     "SOLID { SPHERE { CENTER < 10, 0, 6 > RADIUS 10 } } SCENE { SKY { } }",
+    # In one of the objects that have it from a variable.
+    "VARIABLES { SURFACE a; } a = { TEXTURE { UBLEND { } } } SOLID { PLANE { } SURFACE a } "
+    "SOLID { SPHERE { } SURFACE a }",
+    "VARIABLES { SOURCE a; } a = { ANGLE 60 } SOLID { SPHERE { } } LIGHT { SOURCE a } LIGHT { SOURCE a { POINT } }",
     # Mixed with what has a u, or heights.
     f"{LIT} SOLID {{ PLANE {{ }} SPHERE {{ }} SURFACE {{ TEXTURE {{ UBLEND {{ }} SNOW {{ }} }} }} }}",
 )

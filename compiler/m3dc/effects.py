@@ -14,6 +14,7 @@ from tree_sitter_m3d.table import Default
 
 from . import program
 from .diagnostics import Findings
+from .ir import Span
 from .values import Record
 
 
@@ -71,12 +72,34 @@ def idle(record: Record, members: Iterable[program.Member]) -> frozenset[str]:
     return (record.idle - written) | {keyword for keyword, _ in _without_effect(record, rules) if keyword in written}
 
 
-def report_idle(record: Record, findings: Findings) -> None:
-    """Report the statements of a finished record that never had an effect, and have none in the end."""
-    if record.idle:
-        for keyword, rule in _without_effect(record, RULES[record.block]):
-            if keyword in record.idle:
-                findings.add_at(rule.code, record.place(keyword), rule.why, fill=keyword)
+class Weighed(NamedTuple):
+    """A piece of text that one object has: what to say of it if it has no effect in any; None where it has one here."""
+
+    place: Span
+    idle: tuple[str, str, str] | None  # code, detail, what fills the headline
+
+
+def weighed(record: Record) -> Iterator[Weighed]:
+    """The statements of a finished record that rules are about: those that never had an effect and have none in the
+    end, and those that have one."""
+    rules = RULES.get(record.block, ())
+    without = dict(_without_effect(record, rules))
+    for keyword in {keyword for rule in rules for keyword in rule.keywords} & record.places.keys():
+        rule = without.get(keyword)
+        if rule is None:
+            yield Weighed(record.places[keyword], None)
+        elif keyword in record.idle:
+            yield Weighed(record.places[keyword], (rule.code, rule.why, keyword))
+
+
+def report_idle(pieces: Iterable[Weighed], findings: Findings) -> None:
+    """Report the pieces of text that have no effect in any of the objects that have them, by a variable or not."""
+    pieces = list(pieces)
+    live = {piece.place for piece in pieces if piece.idle is None}
+    for place, idle in dict.fromkeys(piece for piece in pieces if piece.place not in live):
+        assert idle is not None
+        code, detail, fill = idle
+        findings.add_at(code, place, detail, fill=fill)
 
 
 def _without_effect(record: Record, rules: tuple[Rule, ...]) -> Iterator[tuple[str, Rule]]:

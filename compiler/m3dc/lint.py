@@ -20,7 +20,7 @@ from tree_sitter_m3d.table import LANGUAGE
 from . import program
 from .assignments import Usage, report_unused_values, usage
 from .diagnostics import Findings
-from .effects import ENDLESS, NEEDS, report_idle, report_unused_of_textures
+from .effects import ENDLESS, NEEDS, Weighed, report_idle, report_unused_of_textures, weighed
 from .evaluate import World
 from .memo import Ledger, Steps
 from .transform import IDENTITY, Transform, unit
@@ -55,6 +55,13 @@ class _Shape(NamedTuple):
         return self.record.block in ENDLESS
 
 
+class _Looked(NamedTuple):
+    """What the lints of the whole scene ask of an object."""
+
+    shapes: list[_Shape]
+    pieces: list[Weighed]
+
+
 def lint(world: World, items: Iterable[program.Item], findings: Findings, steps: Steps | None = None) -> None:
     """Report everything suspicious about a scene. With the `steps` of a run before, only items and objects that changed
     are looked at for what is in themselves."""
@@ -71,8 +78,12 @@ def lint(world: World, items: Iterable[program.Item], findings: Findings, steps:
     report_unused_values(((base, each.usage) for base, each in facts), findings)
     report_radians(((base, each.angles) for base, each in facts if each.angles), findings)
     shapes: list[_Shape] = []
+    pieces: list[Weighed] = []
     for thing in (*world.solids, *world.lights):
-        shapes += once(thing, partial(_lint_object, thing, findings))
+        looked = once(thing, partial(_lint_object, thing, findings))
+        shapes += looked.shapes
+        pieces += looked.pieces
+    report_idle(pieces, findings)
     for look in SCENE_LINTS:
         look(world, shapes, findings)
 
@@ -91,11 +102,13 @@ def _lint_item(content: program.Content, findings: Findings) -> _Facts:
     return _Facts(usage(content), tuple(angles(body)))
 
 
-def _lint_object(thing: Record, findings: Findings) -> list[_Shape]:
-    """Looks at an object by itself; returns its primitives."""
+def _lint_object(thing: Record, findings: Findings) -> _Looked:
+    """Looks at an object by itself."""
     for look in OBJECT_LINTS:
         look(thing, findings)
-    return [_Shape(part, transform, *_ball(part, transform)) for part, transform in _primitives(thing)]
+    shapes = [_Shape(part, transform, *_ball(part, transform)) for part, transform in _primitives(thing)]
+    pieces = [*_statements(thing), *_blends(thing), *_normals(thing)]
+    return _Looked(shapes, pieces)
 
 
 def _no_light(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -135,33 +148,36 @@ def _texture_stays(thing: Record, findings: Findings) -> None:
             findings.add_at("M3D0507", texture.span, "LOCAL would tie it to the object")
 
 
-def _texture_does_not_show(thing: Record, findings: Findings) -> None:
+def _no_waves(thing: Record, findings: Findings) -> None:
     for texture in _textures(thing):
-        match NEEDS[texture.block]:
-            case "waves" if not texture.parts:
-                detail = "give it a source: WAVE { CENTER < 0, 0, 0 > FREQ 1 }"
-                findings.add_at("M3D0516", texture.span, detail, fill=texture.block)
-            case "uv" if thing.parts and all(part.block in ENDLESS for part in thing.parts):
-                axis = "u" if texture.block == "UBLEND" else "v"
-                detail = f"a PLANE is endless and has no {axis}; a RECTANGLE has one"
-                findings.add_at("M3D0518", texture.span, detail, fill=texture.block)
-            case _:
-                pass
+        if NEEDS[texture.block] == "waves" and not texture.parts:
+            detail = "give it a source: WAVE { CENTER < 0, 0, 0 > FREQ 1 }"
+            findings.add_at("M3D0516", texture.span, detail, fill=texture.block)
 
 
-def _idle_statements(thing: Record, findings: Findings) -> None:
-    """Statements of the surface or the source that have no effect beside others."""
+def _statements(thing: Record) -> Iterator[Weighed]:
+    """Those of the surface or the source."""
     for record in thing.nested.values():
-        report_idle(record, findings)
+        yield from weighed(record)
 
 
-def _no_normals(thing: Record, findings: Findings) -> None:
+def _blends(thing: Record) -> Iterator[Weighed]:
+    """UBLEND and VBLEND go by the u and v of primitives."""
+    blank = all(part.block in ENDLESS for part in thing.parts)
+    for texture in _textures(thing):
+        if NEEDS[texture.block] == "uv":
+            axis = "u" if texture.block == "UBLEND" else "v"
+            detail = f"a PLANE is endless and has no {axis}; a RECTANGLE has one"
+            yield Weighed(texture.span, ("M3D0518", detail, texture.block) if blank else None)
+
+
+def _normals(thing: Record) -> Iterator[Weighed]:
     """PHONG interpolates normals, which FACETS does not give."""
     for record in _meshes(thing):
         assert record.mesh is not None
-        if record.flag("PHONG") and not len(record.mesh.normals):
+        if record.flag("PHONG"):
             detail = "FACETS gives no normals, so that facets stay flat; SFACETS gives one at each corner"
-            findings.add_at("M3D0514", record.place("PHONG"), detail)
+            yield Weighed(record.place("PHONG"), None if len(record.mesh.normals) else ("M3D0514", detail, ""))
 
 
 def _primitives(thing: Record) -> Iterator[tuple[Record, Transform]]:
@@ -379,10 +395,8 @@ SCENE_LINTS: tuple[Callable[[World, list[_Shape], Findings], None], ...] = (
 )
 OBJECT_LINTS: tuple[Callable[[Record, Findings], None], ...] = (
     _texture_stays,
-    _texture_does_not_show,
-    _idle_statements,
+    _no_waves,
     _stretched_sphere,
     _unused_vertices,
-    _no_normals,
     _wrong_side,
 )

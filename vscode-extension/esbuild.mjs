@@ -27,7 +27,7 @@ const page = {
 const endToEnd = (folder) => ({
   ...common,
   minify: false,
-  entryPoints: ["test/e2e/editing.test.ts", "test/e2e/restricted.test.ts"],
+  entryPoints: ["editing", "restricted", "server"].map((name) => `test/e2e/${name}.test.ts`),
   outdir: folder,
   platform: "node",
   format: "esm",

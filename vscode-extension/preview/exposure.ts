@@ -2,8 +2,9 @@
  * One picture of the scene, with straight or with bent light: when it is rendered anew, and what is shown meanwhile.
  *
  * While the text changes, small pictures are made, each wholly, so that something new is seen however fast one types;
- * a full one follows when the text has rested. A change ends a full one at once. The last good picture stays until
- * there is something to paint over it, and comes back if that ends in an error.
+ * a full one follows when the text has rested. A change ends a full one at once. Where full ones are made fast, small
+ * ones are not needed. The last good picture stays until there is something to paint over it, and comes back if that
+ * ends in an error.
  */
 
 import { Bitmap } from "./bitmap";
@@ -11,10 +12,14 @@ import type { Host, Optics, Rendered, RenderRequest } from "./host";
 
 export type Quality = "draft" | "full";
 
+/** A full picture made in fewer seconds than this is fast: it keeps up with the keys. */
+const FAST = 0.2;
+
 /** How large pictures may be; without numbers, as large as the scene says. */
 export interface Limits {
   maxWidth?: number;
   maxHeight?: number;
+  fill?: boolean;
   samples: number;
 }
 
@@ -23,8 +28,8 @@ export class Exposure {
   shown: Bitmap | null = null;
   /** The answer that came with the last good picture. */
   answer: Rendered | null = null;
-  /** The size of the last full picture, and whether it would have been larger without limits. */
-  full: { width: number; height: number; limited: boolean } | null = null;
+  /** The size of the last full picture, the shape of its pixels, and whether it would have been larger elsewhere. */
+  full: { width: number; height: number; aspect: number; limited: boolean } | null = null;
   /** Why the last rendering failed. */
   error: string | null = null;
 
@@ -32,6 +37,10 @@ export class Exposure {
   /** What the last full picture was made with. */
   private made: Limits | null = null;
   private running: { quality: Quality; limits: Limits } | null = null;
+  /** What has come of the one that is being made. */
+  private painted: Bitmap | null = null;
+  /** Seconds that the last full picture took; without end if it was overtaken. */
+  private took = Infinity;
   private next: { quality: Quality; limits: Limits } | null = null;
   private round = 0;
 
@@ -48,7 +57,12 @@ export class Exposure {
   }
 
   get progress(): number {
-    return this.running === null ? 1 : (this.shown?.progress ?? 0);
+    return this.running === null ? 1 : (this.painted?.progress ?? 0);
+  }
+
+  /** Whether full pictures are made fast enough to follow the keys. */
+  get isFast(): boolean {
+    return this.took < FAST;
   }
 
   /** Whether the full picture of this version, as large as this, is there. */
@@ -65,6 +79,9 @@ export class Exposure {
       this.next = { quality, limits };
       return;
     }
+    if (this.running !== null) {
+      this.took = Infinity;
+    }
     void this.render(quality, limits);
   }
 
@@ -72,6 +89,8 @@ export class Exposure {
   clear(): void {
     this.round++;
     this.shown = this.good = this.made = this.answer = this.full = this.error = this.running = this.next = null;
+    this.painted = null;
+    this.took = Infinity;
     this.changed();
   }
 
@@ -81,16 +100,16 @@ export class Exposure {
     this.next = null;
     this.changed();
     const request: RenderRequest = { optics: this.optics, ...limits };
-    let canvas: Bitmap | null = null;
+    this.painted = null;
     let answer: Rendered;
     try {
       answer = await this.host.render(request, (tile) => {
         if (round !== this.round) {
           return;
         }
-        canvas ??= Bitmap.over(this.shown, tile.width, tile.height);
-        canvas.paint(tile);
-        this.shown = canvas;
+        this.painted ??= Bitmap.over(this.shown, tile.width, tile.height);
+        this.painted.paint(tile);
+        this.shown = this.painted;
         this.changed();
       });
     } catch (fault) {
@@ -124,10 +143,11 @@ export class Exposure {
       this.answer = answer;
       this.good = this.shown;
       this.made = quality === "full" ? limits : null;
+      this.took = quality === "full" ? answer.seconds : this.took;
       if (quality === "full" || this.full === null) {
-        const { width, height } = answer;
+        const { width, height, aspect } = answer;
         const { maxWidth = Infinity, maxHeight = Infinity } = limits;
-        this.full = { width, height, limited: width >= maxWidth - 1 || height >= maxHeight - 1 };
+        this.full = { width, height, aspect, limited: width >= maxWidth - 1 || height >= maxHeight - 1 };
       }
     }
   }
@@ -135,5 +155,6 @@ export class Exposure {
 
 function failed(fault: unknown): Rendered {
   const message = fault instanceof Error ? fault.message : String(fault);
-  return { status: "error", version: 0, stale: false, width: 0, height: 0, seconds: 0, bent: false, message };
+  const none = { version: 0, stale: false, width: 0, height: 0, aspect: 1, ownWidth: 0, ownHeight: 0 };
+  return { status: "error", ...none, seconds: 0, bent: false, message };
 }

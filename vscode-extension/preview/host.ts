@@ -26,6 +26,8 @@ export interface RenderRequest {
   /** The picture is made smaller, keeping its proportions, to fit; without, it has the scene's own size. */
   maxWidth?: number;
   maxHeight?: number;
+  /** It is as large as fits, be it larger than the scene's own size, with square pixels. */
+  fill?: boolean;
   /** Rays a pixel; 1 without. */
   samples?: number;
 }
@@ -49,6 +51,11 @@ export interface Rendered {
   stale: boolean;
   width: number;
   height: number;
+  /** How many times as tall as wide a pixel is to be shown. */
+  aspect: number;
+  /** The scene's own size. */
+  ownWidth: number;
+  ownHeight: number;
   seconds: number;
   /** Whether the scene's air bends light at all. */
   bent: boolean;
@@ -92,13 +99,21 @@ export interface Scene {
   render: boolean;
   /** This version has errors: what is shown of it is the last one without. */
   errors: boolean;
+  /** The first error, for people: where, and what it says. */
+  problem: string | null;
+}
+
+/** Why there can be no picture, in words for people, and what they can do about it: the host knows how. */
+export interface Obstacle {
+  reason: string;
+  actions: readonly string[];
 }
 
 export interface Options {
   show: Show;
   /** The size of the picture while one types, as a part of the full size: 0 to 1. */
   typingResolution: number;
-  /** Never larger than the pane, or the scene's own size. */
+  /** As large as the pane, or the scene's own size. */
   resolution: "pane" | "scene";
   samples: number;
   pinned: boolean;
@@ -119,8 +134,8 @@ export interface Events {
   cursor(): void;
   /** Whether anybody can see the picture; nothing is rendered while nobody can. */
   visible(visible: boolean): void;
-  /** Why there can be no picture, in words for people; null: there can. */
-  blocked(reason: string | null): void;
+  /** Why there can be no picture; null: there can. */
+  blocked(obstacle: Obstacle | null): void;
   /** Asks for a picture file, as the button does. */
   save(): void;
 }
@@ -139,6 +154,12 @@ export interface Host {
   /** Lets a person choose a file, and writes the picture into it. */
   save(optics: Optics): void;
   pin(pinned: boolean): void;
+  /** Does one of the things that an obstacle offers. */
+  carryOut(action: string): void;
+  /** Shows the scene's first error in the text. */
+  showProblem(): void;
+  /** Shows what the renderer has to say. */
+  showOutput(): void;
   /** Something was chosen, for a host that remembers it until it shows the preview again. */
   chose(choice: Choice): void;
 }

@@ -5,10 +5,10 @@
  */
 
 import { Exposure, type Limits, type Quality } from "./exposure";
-import type { Choice, Events, Hit, Host, Mask, Optics, Options, Scene, Show } from "./host";
+import type { Choice, Events, Hit, Host, Mask, Obstacle, Optics, Options, Scene, Show } from "./host";
 import { listenToKeys, listenToPointer } from "./input";
 import { Pause } from "./pause";
-import { css, hitText, pixelText } from "./readout";
+import { css, hitText, pictureText, pixelText, unknownText } from "./readout";
 import { Stage } from "./stage";
 import { badge } from "./state";
 import { View } from "./view";
@@ -41,12 +41,12 @@ export class Preview implements Events {
   private isVisible = true;
   /** There would have been a rendering, had anybody seen it. */
   private missed = false;
-  private reason: string | null = null;
+  private obstacle: Obstacle | null = null;
   private divider = 0.5;
   private readonly rested = new Pause(REST, () => this.render("full"));
   private readonly dwelt = new Pause(DWELL, () => void this.ask());
   private readonly calm = {
-    picture: new Pause(CALM, () => this.render("draft")),
+    picture: new Pause(CALM, () => this.render(this.shown().every(({ isFast }) => isFast) ? "full" : "draft")),
     cursor: new Pause(CALM, () => this.askMasks()),
   };
   /** What is pointed at, by fractions of the picture's size: drafts and full pictures come and go under it. */
@@ -75,6 +75,8 @@ export class Preview implements Events {
       save: () => this.save(),
       pin: (pinned) => host.pin(pinned),
       divide: (part) => this.divide(part),
+      carryOut: (action) => host.carryOut(action),
+      lead: (to) => (to === "again" ? this.again() : to === "problem" ? host.showProblem() : host.showOutput()),
     });
     this.stage = new Stage(this.view.canvas, this.viewport);
     const exposure = (optics: Optics): Exposure =>
@@ -161,9 +163,10 @@ export class Preview implements Events {
     }
   }
 
-  blocked(reason: string | null): void {
-    const freed = reason === null && this.reason !== null;
-    this.reason = reason;
+  blocked(obstacle: Obstacle | null): void {
+    const freed = obstacle === null && this.obstacle !== null;
+    this.obstacle = obstacle;
+    this.view.setObstacle(obstacle);
     if (freed) {
       this.render("full");
     }
@@ -228,9 +231,13 @@ export class Preview implements Events {
     if (found === null) {
       return;
     }
-    const hit = await this.pick(found.optics, found.place);
-    if (hit !== null) {
-      this.host.reveal(hit, whole);
+    try {
+      const hit = await this.pick(found.optics, found.place);
+      if (hit !== null) {
+        this.host.reveal(hit, whole);
+      }
+    } catch {
+      // There is nothing to go to; what is wrong is said where the pointer rests.
     }
   }
 
@@ -238,23 +245,28 @@ export class Preview implements Events {
   private async ask(): Promise<void> {
     const { pointer } = this;
     const asked = ++this.asked;
-    if (pointer === null || this.reason !== null) {
+    if (pointer === null || this.obstacle !== null) {
       return;
     }
-    const hit = await this.pick(pointer.optics, pointer.place);
+    let text: string;
+    try {
+      text = hitText(await this.pick(pointer.optics, pointer.place));
+    } catch (fault) {
+      text = unknownText(fault instanceof Error ? fault.message : String(fault));
+    }
     if (asked === this.asked && this.pointer === pointer) {
-      pointer.hit = hitText(hit);
+      pointer.hit = text;
       this.refresh();
     }
   }
 
+  /** What is at a place; null: nothing. Throws if it cannot be asked. */
   private async pick(optics: Optics, place: Point): Promise<Hit | null> {
-    const { shown } = this.exposures[optics];
-    try {
-      return shown === null ? null : await this.host.pick(optics, pixelAt(place, shown));
-    } catch {
-      return null; // the picture has gone meanwhile
+    const { shown, answer } = this.exposures[optics];
+    if (shown === null || answer === null) {
+      throw new Error("the first picture is still being made");
     }
+    return this.host.pick(optics, pixelAt(place, shown));
   }
 
   private askMasks(): void {
@@ -288,7 +300,7 @@ export class Preview implements Events {
     this.calm.picture.stop();
     this.rested.stop();
     this.missed = !this.isVisible;
-    if (this.scene_ === null || !this.isVisible || this.reason !== null) {
+    if (this.scene_ === null || !this.isVisible || this.obstacle !== null) {
       return;
     }
     for (const exposure of exposures) {
@@ -310,10 +322,11 @@ export class Preview implements Events {
       return {
         maxWidth: Math.max(Math.round(width * typingResolution), 16),
         maxHeight: Math.max(Math.round(height * typingResolution), 16),
+        ...(resolution === "pane" && { fill: true }),
         samples: 1,
       };
     }
-    return resolution === "scene" ? { samples } : { maxWidth: pane.width, maxHeight: pane.height, samples };
+    return resolution === "scene" ? { samples } : { maxWidth: pane.width, maxHeight: pane.height, fill: true, samples };
   }
 
   /** The pane has another size. */
@@ -369,7 +382,7 @@ export class Preview implements Events {
     const { mirage, straight } = this.exposures;
     const full = shown.find((exposure) => exposure.full !== null)?.full ?? shown[0]?.shown;
     if (full) {
-      this.viewport.setPicture(full.width, full.height);
+      this.viewport.setPicture(full.width, full.height * ("aspect" in full ? full.aspect : 1));
     }
     for (const { optics, shown: bitmap } of shown) {
       if (!this.fresh[optics]) {
@@ -409,11 +422,12 @@ export class Preview implements Events {
     const version = this.scene_?.version ?? 0;
     const progress = Math.min(...shown.map((exposure) => exposure.progress));
     const state = badge({
-      blocked: this.reason,
+      blocked: this.obstacle?.reason ?? null,
       error: shown.find(({ error }) => error !== null)?.error ?? null,
       rendering,
       progress,
       stale: this.scene_?.errors === true || answers.some((answer) => answer?.stale === true),
+      problem: this.scene_?.problem ?? null,
       outdated: answers.some((answer) => answer !== null && answer.version < version),
       any: shown.some((exposure) => exposure.shown !== null),
     });
@@ -422,9 +436,8 @@ export class Preview implements Events {
 
   /** What is shown, while no pixel is pointed at. */
   private summary(shown: Exposure[]): string {
-    const parts = shown.flatMap(({ answer, optics }) =>
-      answer === null ? [] : `${optics} ${answer.width} × ${answer.height} in ${answer.seconds.toFixed(2)} s`,
-    );
+    const whole = this.options_.resolution === "scene";
+    const parts = shown.flatMap(({ answer, optics }) => (answer === null ? [] : pictureText(optics, answer, whole)));
     const flat = this.exposures.mirage.answer?.bent === false;
     return parts.join("   ") + (flat ? "   no MIRAGE in the scene: both are the same" : "");
   }

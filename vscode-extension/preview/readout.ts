@@ -1,6 +1,6 @@
 /** What is said of a pixel: its place and colour at once, and what it shows as soon as that is known. */
 
-import type { Hit, Optics } from "./host";
+import type { Hit, Optics, Rendered } from "./host";
 import type { Point } from "./viewport";
 
 const WORDS: Record<Optics, string> = { mirage: "mirage", straight: "straight" };
@@ -19,6 +19,19 @@ export function hitText(hit: Hit | null): string {
   const position = hit.position.map(short).join(", ");
   const arcs = hit.path.arcs > 1 ? ` in ${hit.path.arcs} arcs` : "";
   return `line ${hit.line}   at ${position}   depth ${short(hit.depth)}   path ${short(hit.path.length)}${arcs}`;
+}
+
+/** What is said where it could not be asked. */
+export function unknownText(reason: string): string {
+  return `what is here is not known: ${reason}`;
+}
+
+/** Such as `mirage 640 × 400 in 0.12 s`. `whole`: it was meant to have the scene's own size. */
+export function pictureText(optics: Optics, answer: Rendered, whole: boolean): string {
+  const { width, height, ownWidth, ownHeight, seconds } = answer;
+  const smaller = whole && width * height < ownWidth * ownHeight;
+  const own = smaller ? ` (of ${ownWidth} × ${ownHeight}, too many for a preview: Save renders them all)` : "";
+  return `${optics} ${width} × ${height}${own} in ${seconds.toFixed(2)} s`;
 }
 
 /** Six figures, without zeros at the end. */

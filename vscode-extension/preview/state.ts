@@ -9,6 +9,8 @@ export interface State {
   progress: number;
   /** The text has errors. */
   stale: boolean;
+  /** The first of them, if it is known. */
+  problem: string | null;
   /** The text has changed since the picture was made. */
   outdated: boolean;
   /** There is a picture. */
@@ -16,29 +18,47 @@ export interface State {
 }
 
 export interface Badge {
-  kind: "blocked" | "error" | "stale" | "rendering" | "outdated" | "current";
+  kind: "blocked" | "error" | "stale" | "rendering" | "outdated" | "current" | "empty";
   text: string;
   /** More about it. */
   detail: string;
+  /** What a click on it does. */
+  leads: "problem" | "output" | "again" | null;
 }
+
+/** What a screen reader says of it, and a tooltip shows. */
+const LEADS = {
+  problem: "Click to go to the first error.",
+  output: "Click to see what the renderer says.",
+  again: "Click to render it anew.",
+};
 
 /** The one thing that matters most. */
 export function badge(state: State): Badge {
+  const told = (kind: Badge["kind"], text: string, detail = "", leads: Badge["leads"] = null): Badge => ({
+    kind,
+    text,
+    detail: leads === null ? detail : `${detail} ${LEADS[leads]}`,
+    leads,
+  });
   if (state.blocked !== null) {
-    return { kind: "blocked", text: "No picture", detail: state.blocked };
+    return told("blocked", "", state.blocked);
   }
   if (state.error !== null) {
-    return { kind: "error", text: state.any ? "Error: last good picture" : "Error", detail: state.error };
+    const text = state.any ? `Error, last good picture: ${state.error}` : `Error: ${state.error}`;
+    return told("error", text, state.error, "output");
   }
   if (state.stale) {
     const detail = "The scene has errors. The picture is that of its last version without.";
-    return { kind: "stale", text: "Stale", detail };
+    return state.problem === null
+      ? told("stale", "Stale", detail)
+      : told("stale", `Stale: ${state.problem}`, detail, "problem");
   }
   if (state.rendering) {
-    return { kind: "rendering", text: `Rendering ${Math.floor(100 * state.progress)} %`, detail: "" };
+    return told("rendering", `Rendering ${Math.floor(100 * state.progress)} %`);
   }
   if (state.outdated) {
-    return { kind: "outdated", text: "Stale", detail: "The scene has changed since the picture was made." };
+    return told("outdated", "Stale", "The scene has changed since the picture was made.", "again");
   }
-  return { kind: "current", text: "", detail: "" };
+  return told(state.any ? "current" : "empty", "");
 }

@@ -1,6 +1,6 @@
 /** The elements of a preview: toolbar, pane and read-out, with their labels for people and for screen readers. */
 
-import type { Show } from "./host";
+import type { Obstacle, Show } from "./host";
 import type { Badge } from "./state";
 
 export interface Actions {
@@ -12,6 +12,10 @@ export interface Actions {
   save(): void;
   pin(pinned: boolean): void;
   divide(part: number): void;
+  /** Something that an obstacle offers. */
+  carryOut(action: string): void;
+  /** To where the badge leads. */
+  lead(to: NonNullable<Badge["leads"]>): void;
 }
 
 const HELP =
@@ -33,9 +37,10 @@ export class View {
   readonly canvas = element("canvas", "m3d-canvas");
   readonly pane = element("div", "m3d-pane");
   private readonly divider = element("div", "m3d-divider");
-  private readonly badge = element("div", "m3d-badge");
+  private readonly sides = { mirage: element("span", "m3d-side"), straight: element("span", "m3d-side") };
+  private readonly badge = element("button", "m3d-badge");
   private readonly bar = element("div", "m3d-bar");
-  private readonly blocked = element("p", "m3d-blocked");
+  private readonly blocked = element("div", "m3d-blocked");
   private readonly zoom = element("output", "m3d-zoom");
   private readonly swatch = element("span", "m3d-swatch");
   private readonly pixel = element("span", "m3d-pixel");
@@ -43,8 +48,12 @@ export class View {
   private readonly shows = new Map<Show, HTMLButtonElement>();
   private readonly pin: HTMLButtonElement;
   private readonly whole = element("input", "");
+  private leads: Badge["leads"] = null;
 
-  constructor(root: HTMLElement, actions: Actions) {
+  constructor(
+    root: HTMLElement,
+    private readonly actions: Actions,
+  ) {
     root.classList.add("m3d-preview");
     const toolbar = element("div", "m3d-toolbar");
     toolbar.setAttribute("role", "toolbar");
@@ -71,8 +80,8 @@ export class View {
     this.whole.type = "checkbox";
     this.whole.addEventListener("change", () => actions.wholeSize(this.whole.checked));
     const label = element("label", "m3d-whole");
-    label.title = "Render at the scene's own size, however large the pane is";
-    label.append(this.whole, "Full");
+    label.title = "Render WIDTH x HEIGHT pixels, however large the pane is";
+    label.append(this.whole, "Own size");
     const files = element("div", "m3d-group m3d-right");
     this.pin = button("Pin", "Keep this scene while others are edited", () =>
       actions.pin(this.pin.getAttribute("aria-pressed") !== "true"),
@@ -82,16 +91,26 @@ export class View {
       this.pin,
     );
     toolbar.append(group, zoom, label, files);
+    oneStop(toolbar);
 
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
     this.canvas.setAttribute("aria-roledescription", "picture");
     this.canvas.setAttribute("aria-describedby", "m3d-help");
-    this.badge.setAttribute("role", "status");
+    this.badge.type = "button";
+    this.badge.addEventListener("click", () => this.leads !== null && actions.lead(this.leads));
+    const told = element("div", "");
+    told.setAttribute("role", "status");
+    told.append(this.badge);
     this.blocked.hidden = true;
+    this.blocked.setAttribute("role", "alert");
+    for (const [name, side] of Object.entries(this.sides)) {
+      side.textContent = name;
+      side.setAttribute("aria-hidden", "true");
+    }
     this.bar.setAttribute("aria-hidden", "true");
     this.setUpDivider(actions);
-    this.pane.append(this.canvas, this.divider, this.badge, this.bar, this.blocked);
+    this.pane.append(this.canvas, ...Object.values(this.sides), this.divider, told, this.bar, this.blocked);
 
     const readout = element("div", "m3d-readout");
     readout.setAttribute("role", "status");
@@ -107,7 +126,9 @@ export class View {
     for (const [name, choice] of this.shows) {
       choice.setAttribute("aria-pressed", String(name === show));
     }
-    this.divider.hidden = show !== "both";
+    for (const shown of [this.divider, ...Object.values(this.sides)]) {
+      shown.hidden = show !== "both";
+    }
   }
 
   setPinned(pinned: boolean): void {
@@ -129,7 +150,20 @@ export class View {
   /** Moves the divider; `left` in pixels of the pane. */
   setDivider(part: number, left: number): void {
     this.divider.style.left = `${left}px`;
+    this.sides.mirage.style.right = `calc(100% - ${left}px)`;
+    this.sides.straight.style.left = `${left}px`;
     this.divider.setAttribute("aria-valuenow", String(Math.round(part * 100)));
+  }
+
+  /** Says why there can be no picture, over the one that there may be, with buttons for what can be done about it. */
+  setObstacle(obstacle: Obstacle | null): void {
+    this.blocked.hidden = obstacle === null;
+    const reason = element("p", "");
+    reason.textContent = obstacle?.reason ?? "";
+    const buttons = (obstacle?.actions ?? []).map((action) =>
+      button(action, action, () => this.actions.carryOut(action)),
+    );
+    this.blocked.replaceChildren(reason, ...buttons);
   }
 
   setBadge(badge: Badge, progress: number): void {
@@ -137,15 +171,14 @@ export class View {
     this.badge.hidden = badge.text === "";
     this.badge.dataset.kind = badge.kind;
     // Not at every percent: screen readers would read each.
-    const text = badge.kind === "error" ? `${badge.text}: ${badge.detail}` : badge.text;
-    if (this.badge.textContent !== text) {
-      this.badge.textContent = text;
+    if (this.badge.textContent !== badge.text) {
+      this.badge.textContent = badge.text;
     }
+    this.leads = badge.leads;
+    this.badge.disabled = badge.leads === null;
     this.badge.title = badge.detail;
     this.badge.setAttribute("aria-live", badge.kind === "rendering" ? "off" : "polite");
     this.bar.style.width = badge.kind === "rendering" || progress < 1 ? `${100 * progress}%` : "0";
-    this.blocked.hidden = badge.kind !== "blocked";
-    this.blocked.textContent = badge.kind === "blocked" ? badge.detail : "";
   }
 
   setReadout(pixel: string, color: string | null, hit: string): void {
@@ -189,6 +222,26 @@ export class View {
       }
     });
   }
+}
+
+/** Makes a toolbar one stop of the Tab key; within it one goes by arrow keys, Home and End. */
+function oneStop(toolbar: HTMLElement): void {
+  const stops = [...toolbar.querySelectorAll<HTMLElement>("button, input")];
+  const stopAt = (stop: HTMLElement): void => {
+    for (const other of stops) {
+      other.tabIndex = other === stop ? 0 : -1;
+    }
+  };
+  toolbar.addEventListener("focusin", (event) => stopAt(event.target as HTMLElement));
+  toolbar.addEventListener("keydown", (event) => {
+    const at = stops.indexOf(event.target as HTMLElement);
+    const to = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: -1 }[event.key];
+    if (to !== undefined && at >= 0) {
+      stops.at(to % stops.length)?.focus();
+      event.preventDefault();
+    }
+  });
+  stops.slice(1).forEach((stop) => (stop.tabIndex = -1));
 }
 
 function element<Name extends keyof HTMLElementTagNameMap>(name: Name, style: string): HTMLElementTagNameMap[Name] {

@@ -17,26 +17,43 @@ export interface RenderTask {
   arguments?: string[];
 }
 
+const SUFFIXES = { check: null, compile: ".m3ir", dump: ".dump" };
+
+/** The picture's file of a scene, beside it: those of both kinds of light have names of their own. */
+export function pictureOf(scene: string, optics: "mirage" | "straight"): string {
+  return `${scene.replace(/\.(m3d|m3ir)$/, "")}${optics === "straight" ? "-straight" : ""}.png`;
+}
+
+/** The file that a task writes; null: none. */
+export function outputOf(task: CompileTask | RenderTask): string | null {
+  if (task.type === "m3d-render") {
+    return task.output ?? pictureOf(task.scene, task.optics ?? "mirage");
+  }
+  const suffix = SUFFIXES[task.action ?? "compile"];
+  return suffix === null ? null : (task.output ?? task.scene.replace(/\.m3d$/, "") + suffix);
+}
+
+/** What is said when a task has ended well. */
+export function successOf(task: CompileTask | RenderTask): string {
+  const output = outputOf(task);
+  return output === null ? `${task.scene} has no errors.` : `${output} is written.`;
+}
+
 /** The arguments of m3dc. */
 export function compileArguments(task: CompileTask): string[] {
-  const { scene, action = "compile", output, arguments: more = [] } = task;
-  const beside = (suffix: string): string => output ?? scene.replace(/\.m3d$/, "") + suffix;
-  const what = {
-    check: ["--check"],
-    compile: ["-o", beside(".m3ir")],
-    dump: [`--dump=${beside(".dump")}`],
-  }[action];
+  const { scene, action = "compile", arguments: more = [] } = task;
+  const output = outputOf(task) ?? "";
+  const what = { check: ["--check"], compile: ["-o", output], dump: [`--dump=${output}`] }[action];
   return [...what, ...more, scene];
 }
 
 /** The arguments of m3d-render. */
 export function renderArguments(task: RenderTask): string[] {
-  const { scene, output, optics = "mirage", samples, arguments: more = [] } = task;
-  const target = output ?? `${scene.replace(/\.(m3d|m3ir)$/, "")}.png`;
+  const { scene, optics = "mirage", samples, arguments: more = [] } = task;
   return [
     scene,
     "-o",
-    target,
+    outputOf(task) ?? "",
     ...(optics === "straight" ? ["--straight"] : []),
     ...(samples === undefined ? [] : ["--samples", String(samples)]),
     ...more,

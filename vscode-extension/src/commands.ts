@@ -11,12 +11,13 @@ import type { Server } from "./server";
 import { previewSettings } from "./settings";
 import { taskOf } from "./tasks";
 
-export function registerCommands(server: Server, scenes: Scenes): vscode.Disposable {
+export function registerCommands(server: Server, scenes: Scenes, extension: vscode.Uri): vscode.Disposable {
   const command = vscode.commands.registerCommand;
   return vscode.Disposable.from(
     command("m3d.restartServer", () => server.restart()),
     command("m3d.showOutput", () => server.output.show()),
     command("m3d.chooseServer", chooseServer),
+    command("m3d.newScene", () => newScene(extension)),
     command("m3d.compile", async (uri?: unknown) => compile(await sceneOf(scenes, uri))),
     command("m3d.render", async (uri?: unknown) => render(server, await sceneOf(scenes, uri))),
     command("m3d.format", async (uri?: unknown) => format(await sceneOf(scenes, uri))),
@@ -38,13 +39,24 @@ function rangeOf({ start, end }: Range): vscode.Range {
   return new vscode.Range(start.line, start.character, end.line, end.character);
 }
 
+/** A scene to begin with: that of the walkthrough. */
+async function newScene(extension: vscode.Uri): Promise<void> {
+  const bytes = await vscode.workspace.fs.readFile(vscode.Uri.joinPath(extension, "walkthrough", "mirage.m3d"));
+  const content = new TextDecoder().decode(bytes);
+  await vscode.window.showTextDocument(await vscode.workspace.openTextDocument({ language: "m3d", content }));
+}
+
 async function chooseServer(): Promise<void> {
   const chosen = await vscode.window.showOpenDialog({ title: "The program m3d-lsp", openLabel: "Use This Program" });
   const file = chosen?.[0];
   if (file !== undefined) {
     const settings = vscode.workspace.getConfiguration("m3d");
     // The extension starts the server anew when this setting changes.
+    const before = settings.get<string>("server.path");
     await settings.update("server.path", file.fsPath, vscode.ConfigurationTarget.Global);
+    if (before === file.fsPath) {
+      await vscode.commands.executeCommand("m3d.restartServer");
+    }
   }
 }
 

@@ -21,8 +21,8 @@ export function activate(context: vscode.ExtensionContext): void {
   context.subscriptions.push(
     running,
     scenes,
-    showStatus(running),
-    registerCommands(running, scenes),
+    showStatus(running, scenes),
+    registerCommands(running, scenes, context.extensionUri),
     registerTasks(),
     new Previews(running, scenes, context.extensionUri),
     new DumpView(running, scenes),

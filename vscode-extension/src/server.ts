@@ -1,5 +1,6 @@
 /** The language server: started, watched, restarted, asked. */
 
+import { spawn, type ChildProcess } from "node:child_process";
 import * as vscode from "vscode";
 import {
   CloseAction,
@@ -9,10 +10,11 @@ import {
   type CancellationToken,
   type LanguageClientOptions,
   type RequestType,
-  type ServerOptions,
   type StaticFeature,
 } from "vscode-languageclient/node";
 
+import { within } from "./deadline";
+import { Ends } from "./ends";
 import * as protocol from "./protocol";
 import { server as findServer } from "./surroundings";
 
@@ -22,9 +24,29 @@ export type ServerState =
   | { kind: "missing"; looked: string[] }
   | { kind: "failed"; reason: string };
 
-/** A server that ends so often within so many ms is not started again by itself. */
-const MOST_ENDS = 4;
-const WITHIN = 180_000;
+/** The name that the server gives itself. */
+const NAME = "m3d-lsp";
+
+/** How long the server may take to answer at its start, and to end when it is asked to, in ms. */
+const TO_ANSWER = 60_000;
+const TO_END = 2000;
+
+/** A client that leaves it to the extension to tell people what is the matter, and to stop what has not started. */
+class Client extends LanguageClient {
+  override error(message: string, data?: unknown): void {
+    super.error(message, data, false);
+  }
+
+  override stop(timeout?: number): Promise<void> {
+    return this.state === State.Running ? super.stop(timeout) : Promise.resolve();
+  }
+}
+
+/** A server as it runs: the client that talks to it, and its process. */
+interface Running {
+  client: LanguageClient;
+  process: ChildProcess;
+}
 
 const ours: StaticFeature = {
   fillClientCapabilities: (capabilities) => {
@@ -44,40 +66,43 @@ export class Server implements vscode.Disposable {
   readonly onDidAnalyse = this.analysedAgain.event;
   readonly onTile = this.tileCame.event;
 
-  private client: LanguageClient | undefined;
+  private running: Running | undefined;
   private current: ServerState = { kind: "starting" };
   private turn: Promise<void> = Promise.resolve();
-  private ends: number[] = [];
+  private readonly ends = new Ends();
 
   get state(): ServerState {
     return this.current;
   }
 
-  /** Starts the server, or stops it and starts what is found now. One such wish is carried out after the other. */
+  /** Starts the server, or ends it and starts what is found now: a person, or a setting, wants it. */
   restart(): Promise<void> {
-    this.turn = this.turn.then(async () => {
-      await this.stop();
-      await this.start();
-    });
-    return this.turn;
+    this.ends.forget();
+    return this.startAnew();
   }
 
+  /** Ends the server. One that has not answered yet is not waited for. */
   async stop(): Promise<void> {
-    const { client } = this;
-    this.client = undefined;
+    const { running } = this;
+    this.running = undefined;
+    if (running === undefined) {
+      return;
+    }
     try {
-      await client?.stop();
+      await running.client.stop(TO_END);
     } catch (fault) {
       this.output.warn(`the language server did not stop properly: ${String(fault)}`);
     }
+    await end(running.process);
   }
 
   /** Asks the server. Throws while it does not run, and what it answers as an error. */
   async request<P, R>(type: RequestType<P, R, void>, params: P, token?: CancellationToken): Promise<R> {
-    if (this.client === undefined || this.current.kind !== "running") {
+    if (this.running === undefined || this.current.kind !== "running") {
       throw new Error("the language server does not run");
     }
-    return token === undefined ? this.client.sendRequest(type, params) : this.client.sendRequest(type, params, token);
+    const { client } = this.running;
+    return token === undefined ? client.sendRequest(type, params) : client.sendRequest(type, params, token);
   }
 
   dispose(): void {
@@ -88,45 +113,64 @@ export class Server implements vscode.Disposable {
     this.tileCame.dispose();
   }
 
+  /** One start is carried out after the other; one that is still waiting for its server's answer is given up. */
+  private startAnew(): Promise<void> {
+    if (this.running !== undefined && this.running.client.state !== State.Running) {
+      void end(this.running.process);
+    }
+    this.turn = this.turn.then(async () => {
+      await this.stop();
+      await this.start();
+    });
+    return this.turn;
+  }
+
   private async start(): Promise<void> {
     const found = findServer();
     if (!("program" in found)) {
-      this.output.warn(`m3d-lsp was not found. Looked at: ${found.looked.join(", ")}`);
+      this.output.warn(`${NAME} was not found. Looked at: ${found.looked.join(", ")}`);
       this.become({ kind: "missing", looked: found.looked });
       return;
     }
+    const { program } = found;
     this.become({ kind: "starting" });
-    this.output.info(`starting ${found.program} (from the ${found.where})`);
-    const options: ServerOptions = { command: found.program, args: ["--stdio"] };
-    const client = new LanguageClient("m3d", "Mirage3D", options, this.clientOptions());
-    this.client = client;
+    this.output.info(`starting ${program} (from the ${found.where})`);
+    const process = spawn(program, ["--stdio"], { stdio: "pipe" });
+    const client = new Client(
+      "m3d",
+      "Mirage3D",
+      () => Promise.resolve(process),
+      this.clientOptions(() => this.hasEnded(process)),
+    );
     client.registerFeature(ours);
     client.onNotification(protocol.analysed, (analysed) => this.analysedAgain.fire(analysed));
     client.onNotification(protocol.tile, (tile) => this.tileCame.fire(tile));
-    client.onDidChangeState(({ newState }) => {
-      if (client === this.client) {
-        this.follow(client, newState, found.program);
-      }
+    this.running = { client, process };
+    const ended = new Promise<never>((_, reject) => {
+      process.once("error", (fault) => reject(new Error(`${program} cannot be started: ${fault.message}`)));
+      process.once("exit", (status, signal) => {
+        reject(new Error(`${program} ended (${signal ?? `status ${status ?? "unknown"}`}) before it answered`));
+      });
     });
+    const late = `${program} has not answered within ${TO_ANSWER / 1000} s`;
     try {
-      await client.start();
-    } catch (fault) {
-      this.become({ kind: "failed", reason: fault instanceof Error ? fault.message : String(fault) });
-    }
-  }
-
-  private follow(client: LanguageClient, state: State, program: string): void {
-    if (state === State.Running) {
-      const version = client.initializeResult?.serverInfo?.version ?? "";
+      await within(TO_ANSWER, late, Promise.race([client.start(), ended]));
+      const { name, version = "" } = client.initializeResult?.serverInfo ?? { name: "without a name" };
+      if (name !== NAME) {
+        throw new Error(`${program} is another language server, ${name}`);
+      }
       this.become({ kind: "running", program, version });
-    } else if (state === State.Starting) {
-      this.become({ kind: "starting" });
-    } else if (this.current.kind !== "failed") {
-      this.become({ kind: "failed", reason: "The language server has ended." });
+    } catch (fault) {
+      // Given up for another start, it has not failed.
+      const hasFailed = this.isRunning(process) && !process.killed;
+      await this.stop();
+      if (hasFailed) {
+        this.fail(`${fault instanceof Error ? fault.message : String(fault)}. Is it ${NAME}?`);
+      }
     }
   }
 
-  private clientOptions(): LanguageClientOptions {
+  private clientOptions(ended: () => void): LanguageClientOptions {
     return {
       documentSelector: [
         { language: "m3d", scheme: "file" },
@@ -136,27 +180,60 @@ export class Server implements vscode.Disposable {
       // Told without being asked: servers need not register for it.
       // eslint-disable-next-line @typescript-eslint/no-deprecated
       synchronize: { configurationSection: "m3d" },
+      initializationFailedHandler: () => false,
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),
-        closed: () => this.closed(),
+        closed: () => {
+          ended();
+          return { action: CloseAction.DoNotRestart, handled: true, message: "the connection is closed" };
+        },
       },
     };
   }
 
-  private closed(): { action: CloseAction; handled: boolean } {
-    const now = Date.now();
-    this.ends = [...this.ends.filter((end) => now - end < WITHIN), now];
-    if (this.ends.length <= MOST_ENDS) {
-      this.output.warn("the language server has ended; starting it again");
-      return { action: CloseAction.Restart, handled: true };
+  /** A server has ended without being asked to: it is started again, unless that happens too often. */
+  private hasEnded(process: ChildProcess): void {
+    if (!this.isRunning(process) || this.current.kind !== "running") {
+      return;
     }
-    this.become({ kind: "failed", reason: `The language server has ended ${this.ends.length} times in 3 minutes.` });
-    return { action: CloseAction.DoNotRestart, handled: true };
+    this.running = undefined;
+    void end(process);
+    if (this.ends.add(Date.now())) {
+      this.output.warn("the language server has ended; starting it again");
+      this.become({ kind: "starting" });
+      void this.startAnew();
+    } else {
+      this.fail(`The language server has ended ${this.ends.count} times in 3 minutes.`);
+    }
+  }
+
+  private isRunning(process: ChildProcess): boolean {
+    return this.running?.process === process;
+  }
+
+  private fail(reason: string): void {
+    this.output.error(reason);
+    this.become({ kind: "failed", reason });
   }
 
   private become(state: ServerState): void {
     this.current = state;
     void vscode.commands.executeCommand("setContext", "m3d.serverRuns", state.kind === "running");
+    void vscode.commands.executeCommand("setContext", "m3d.server", state.kind);
     this.stateChanged.fire(state);
+  }
+}
+
+/** Ends a process if it has not ended: as one asks, and if that does not help, as one must. */
+async function end(process: ChildProcess): Promise<void> {
+  if (process.pid === undefined || process.exitCode !== null || process.signalCode !== null) {
+    return;
+  }
+  const exit = new Promise((resolve) => process.once("exit", resolve));
+  process.kill();
+  try {
+    await within(TO_END, "it goes on", exit);
+  } catch {
+    process.kill("SIGKILL");
   }
 }

@@ -2,10 +2,12 @@
 
 import * as vscode from "vscode";
 
+import { commandOf, type Action } from "./actions";
 import { HOW_TO_INSTALL, look } from "./look";
+import { isScene, type Scenes } from "./scenes";
 import type { Server, ServerState } from "./server";
 
-export function showStatus(server: Server): vscode.Disposable {
+export function showStatus(server: Server, scenes: Scenes): vscode.Disposable {
   const item = vscode.window.createStatusBarItem("m3d.status", vscode.StatusBarAlignment.Right, 90);
   item.name = "Mirage3D";
   item.command = "m3d.status";
@@ -15,7 +17,9 @@ export function showStatus(server: Server): vscode.Disposable {
     item.tooltip = tooltip;
     item.accessibilityInformation = { label, role: "button" };
     item.backgroundColor = color === undefined ? undefined : new vscode.ThemeColor(color);
-    if (vscode.window.activeTextEditor?.document.languageId === "m3d") {
+    // Without an editor the keyboard may be in a preview.
+    const document = vscode.window.activeTextEditor?.document ?? scenes.active;
+    if (isScene(document)) {
       item.show();
     } else {
       item.hide();
@@ -46,33 +50,31 @@ async function tellMissing(): Promise<void> {
   const chosen = await vscode.window.showWarningMessage(
     `The Mirage3D language server, m3d-lsp, was not found: there are colours and snippets, but no checking and no ` +
       `pictures.${restricted} ${HOW_TO_INSTALL}`,
-    "Choose Program...",
-    "Try Again",
-    "Show Output",
+    ...offered("Choose Program...", "Try Again", "Show Output"),
   );
   await carryOut(chosen);
 }
 
 async function tellFailed(reason: string): Promise<void> {
-  const chosen = await vscode.window.showErrorMessage(`Mirage3D: ${reason}`, "Try Again", "Show Output");
+  const chosen = await vscode.window.showErrorMessage(
+    `Mirage3D: ${reason}`,
+    ...offered("Try Again", "Choose Program...", "Show Output"),
+  );
   await carryOut(chosen);
 }
 
 async function chooseAction(server: Server): Promise<void> {
   const { tooltip } = look(server.state, vscode.workspace.isTrusted);
-  const actions = ["Open Preview", "Show Output", "Restart Language Server", "Choose Program..."];
+  const actions = offered("Open Preview", "Show Output", "Restart Language Server", "Choose Program...");
   await carryOut(await vscode.window.showQuickPick(actions, { title: "Mirage3D", placeHolder: tooltip }));
 }
 
-async function carryOut(action: string | undefined): Promise<void> {
-  const commands: Record<string, string> = {
-    "Open Preview": "m3d.preview",
-    "Show Output": "m3d.showOutput",
-    "Restart Language Server": "m3d.restartServer",
-    "Try Again": "m3d.restartServer",
-    "Choose Program...": "m3d.chooseServer",
-  };
-  const command = action === undefined ? undefined : commands[action];
+function offered(...actions: Action[]): Action[] {
+  return actions;
+}
+
+export async function carryOut(action: string | undefined): Promise<void> {
+  const command = commandOf(action);
   if (command !== undefined) {
     await vscode.commands.executeCommand(command);
   }

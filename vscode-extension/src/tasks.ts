@@ -3,7 +3,14 @@
 import * as path from "node:path";
 import * as vscode from "vscode";
 
-import { compileArguments, renderArguments, type CompileTask, type RenderTask } from "./arguments";
+import {
+  compileArguments,
+  outputOf,
+  renderArguments,
+  successOf,
+  type CompileTask,
+  type RenderTask,
+} from "./arguments";
 import { isScene } from "./scenes";
 import { program } from "./surroundings";
 
@@ -40,6 +47,11 @@ export function registerTasks(): vscode.Disposable {
     },
   });
   return vscode.Disposable.from(
+    vscode.tasks.onDidEndTaskProcess(({ execution: { task }, exitCode }) => {
+      if (task.definition.type === "m3dc" || task.definition.type === "m3d-render") {
+        void tell(task, exitCode);
+      }
+    }),
     vscode.tasks.registerTaskProvider(
       "m3dc",
       provider((scene) => (["check", "compile", "dump"] as const).map((action) => ({ type: "m3dc", scene, action }))),
@@ -51,11 +63,33 @@ export function registerTasks(): vscode.Disposable {
           type: "m3d-render",
           scene,
           optics,
-          ...(optics === "straight" && { output: `${scene.replace(/\.m3d$/, "")}-straight.png` }),
         })),
       ),
     ),
   );
+}
+
+/** Says how a task has ended: its terminal stays hidden. */
+async function tell(ended: vscode.Task, status: number | undefined): Promise<void> {
+  const task = ended.definition as CompileTask | RenderTask;
+  const output = outputOf(task);
+  if (status === undefined) {
+    return; // It was stopped.
+  }
+  if (status !== 0) {
+    const message = `${task.type} ended with status ${status} for ${task.scene}.`;
+    if ((await vscode.window.showErrorMessage(message, "Show Problems")) !== undefined) {
+      await vscode.commands.executeCommand("workbench.actions.view.problems");
+    }
+    return;
+  }
+  const isPicture = task.type === "m3d-render" && output !== null;
+  const chosen = await vscode.window.showInformationMessage(successOf(task), ...(isPicture ? ["Open"] : []));
+  if (chosen === "Open" && output !== null) {
+    const { cwd } = (ended.execution as vscode.ProcessExecution | undefined)?.options ?? {};
+    const folder = cwd ?? (typeof ended.scope === "object" ? ended.scope.uri.fsPath : "");
+    await vscode.commands.executeCommand("vscode.open", vscode.Uri.file(path.resolve(folder, output)));
+  }
 }
 
 /** The scenes that are open and lie in the workspace, by their paths within their folders. */

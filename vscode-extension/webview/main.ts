@@ -67,6 +67,18 @@ class Extension implements Host {
     this.api.postMessage({ type: "pin", pinned });
   }
 
+  carryOut(action: string): void {
+    this.api.postMessage({ type: "action", action });
+  }
+
+  showProblem(): void {
+    this.api.postMessage({ type: "problem" });
+  }
+
+  showOutput(): void {
+    this.api.postMessage({ type: "output" });
+  }
+
   chose(choice: Choice): void {
     this.keep({ chosen: { ...this.api.getState()?.chosen, ...choice } });
   }
@@ -105,7 +117,7 @@ class Extension implements Host {
         events.visible(message.visible);
         break;
       case "blocked":
-        events.blocked(message.reason);
+        events.blocked(message.obstacle);
         break;
       default:
         events[message.type]();

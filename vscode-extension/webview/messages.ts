@@ -1,6 +1,18 @@
 /** What the page of a preview and the extension say to each other. */
 
-import type { Choice, Hit, Mask, Optics, Options, Pixel, Rendered, RenderRequest, Scene, Tile } from "../preview/host";
+import type {
+  Choice,
+  Hit,
+  Mask,
+  Obstacle,
+  Optics,
+  Options,
+  Pixel,
+  Rendered,
+  RenderRequest,
+  Scene,
+  Tile,
+} from "../preview/host";
 
 /** A tile with its pixels as base64: they come so from the language server, and are only handed on. */
 export type WireTile = Omit<Tile, "pixels"> & { pixels: string };
@@ -13,7 +25,10 @@ export type FromPage =
   | { type: "ready" }
   | { type: "reveal"; hit: Hit; whole: boolean }
   | { type: "save"; optics: Optics }
-  | { type: "pin"; pinned: boolean };
+  | { type: "pin"; pinned: boolean }
+  | { type: "action"; action: string }
+  | { type: "problem" }
+  | { type: "output" };
 
 /** What VS Code hands back when it opens the preview again after a restart. */
 export interface Kept {
@@ -32,7 +47,7 @@ export type ToPage =
   | { type: "scene"; scene: Scene }
   | { type: "options"; options: Partial<Options> }
   | { type: "visible"; visible: boolean }
-  | { type: "blocked"; reason: string | null }
+  | { type: "blocked"; obstacle: Obstacle | null }
   | { type: "again" }
   | { type: "cursor" }
   | { type: "save" };

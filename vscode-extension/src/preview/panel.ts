@@ -5,10 +5,12 @@ import * as vscode from "vscode";
 
 import type { Hit, Mask, Optics, Rendered, Scene } from "../../preview/host";
 import type { FromPage, ToPage } from "../../webview/messages";
+import { obstacle } from "../actions";
 import * as protocol from "../protocol";
 import { reveal } from "../reveal";
 import type { Scenes } from "../scenes";
 import type { Server } from "../server";
+import { carryOut } from "../status";
 import { previewSettings } from "../settings";
 import { page } from "./page";
 import { savePicture } from "./save";
@@ -28,6 +30,7 @@ export class PreviewPanel {
   private readonly renderings: Record<Optics, number[]> = { mirage: [], straight: [] };
   private isReady = false;
   private isPinned = false;
+  private toldProblem: string | undefined;
 
   constructor(
     readonly panel: vscode.WebviewPanel,
@@ -36,7 +39,8 @@ export class PreviewPanel {
     private readonly scenes: Scenes,
     extension: vscode.Uri,
   ) {
-    panel.iconPath = vscode.Uri.joinPath(extension, "icons", "view.svg");
+    const icon = (theme: string): vscode.Uri => vscode.Uri.joinPath(extension, "icons", `m3d-${theme}.svg`);
+    panel.iconPath = { light: icon("light"), dark: icon("dark") };
     panel.webview.options = { enableScripts: true, localResourceRoots: [vscode.Uri.joinPath(extension, "dist")] };
     this.listening = vscode.Disposable.from(
       panel.webview.onDidReceiveMessage((message: FromPage) => void this.take(message)),
@@ -57,6 +61,11 @@ export class PreviewPanel {
       vscode.workspace.onDidSaveTextDocument((document) => {
         if (document === this.document && this.settings.renderOn === "save") {
           this.sayScene(true);
+        }
+      }),
+      vscode.languages.onDidChangeDiagnostics(({ uris }) => {
+        if (uris.some((uri) => uri.toString() === this.uri) && this.problem()?.message !== this.toldProblem) {
+          this.sayScene(false);
         }
       }),
       vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => {
@@ -108,6 +117,10 @@ export class PreviewPanel {
     this.say({ type: "save" });
   }
 
+  async saveScene(): Promise<void> {
+    await this.document.save();
+  }
+
   private get settings(): ReturnType<typeof previewSettings> {
     return previewSettings(this.document.uri);
   }
@@ -128,30 +141,23 @@ export class PreviewPanel {
     const { uri, version } = this.document;
     const state = this.scenes.stateOf(uri);
     const errors = state?.ok === false && state.version === version;
-    const scene: Scene = { id: uri.toString(), name: path.basename(uri.path), version, render, errors };
+    const first = errors ? this.problem() : undefined;
+    this.toldProblem = first?.message;
+    const problem = first === undefined ? null : `line ${first.range.start.line + 1}: ${first.message}`;
+    const scene: Scene = { id: uri.toString(), name: path.basename(uri.path), version, render, errors, problem };
     this.say({ type: "scene", scene });
   }
 
-  private sayBlocked(): void {
-    this.say({ type: "blocked", reason: this.obstacle() });
+  /** The first error of the text. */
+  private problem(): vscode.Diagnostic | undefined {
+    const errors = vscode.languages
+      .getDiagnostics(this.document.uri)
+      .filter(({ severity }) => severity === vscode.DiagnosticSeverity.Error);
+    return errors.sort((one, other) => one.range.start.compareTo(other.range.start))[0];
   }
 
-  /** Why there can be no picture. */
-  private obstacle(): string | null {
-    if (!vscode.workspace.isTrusted) {
-      return "Nothing is rendered in Restricted Mode. Trust the workspace to see the picture.";
-    }
-    const { state } = this.server;
-    switch (state.kind) {
-      case "running":
-        return null;
-      case "starting":
-        return "The language server is starting...";
-      case "missing":
-        return "The language server, m3d-lsp, was not found. The item in the status bar tells what to do.";
-      case "failed":
-        return `${state.reason} The item in the status bar starts it again.`;
-    }
+  private sayBlocked(): void {
+    this.say({ type: "blocked", obstacle: obstacle(this.server.state, vscode.workspace.isTrusted) });
   }
 
   private passOn({ preview, ...tile }: protocol.Tile): void {
@@ -187,6 +193,19 @@ export class PreviewPanel {
         break;
       case "pin":
         this.pin(message.pinned);
+        break;
+      case "action":
+        await carryOut(message.action);
+        break;
+      case "problem": {
+        const problem = this.problem();
+        if (problem !== undefined) {
+          await reveal(this.document.uri, problem.range);
+        }
+        break;
+      }
+      case "output":
+        this.server.output.show();
         break;
     }
   }

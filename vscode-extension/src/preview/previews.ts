@@ -25,6 +25,7 @@ export class Previews implements vscode.Disposable {
       vscode.commands.registerCommand("m3d.preview", (uri?: unknown) => this.open(uri)),
       vscode.commands.registerCommand("m3d.preview.pin", () => this.active?.pin(!this.active.pinned)),
       vscode.commands.registerCommand("m3d.preview.save", () => this.active?.save()),
+      vscode.commands.registerCommand("m3d.preview.saveScene", () => this.active?.saveScene()),
       vscode.commands.registerCommand("m3d.preview.again", () => this.active?.again()),
     );
   }

@@ -4,6 +4,7 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 
 import type { Optics } from "../../preview/host";
+import { pictureOf } from "../arguments";
 import * as protocol from "../protocol";
 import type { Server } from "../server";
 
@@ -21,7 +22,7 @@ export async function savePicture(
   }
   const target = await vscode.window.showSaveDialog({
     title: `Save the picture of ${path.basename(document.uri.path)} (${optics})`,
-    defaultUri: beside(document.uri),
+    defaultUri: beside(document.uri, optics),
     filters: KINDS,
   });
   if (target === undefined) {
@@ -55,9 +56,9 @@ export async function tellRestricted(): Promise<void> {
   }
 }
 
-/** scene.png beside scene.m3d; an unsaved scene's goes into the workspace's folder. */
-function beside(scene: vscode.Uri): vscode.Uri {
-  const name = `${path.basename(scene.path, ".m3d")}.png`;
+/** scene.png beside scene.m3d, or scene-straight.png; an unsaved scene's goes into the workspace's folder. */
+function beside(scene: vscode.Uri, optics: Optics): vscode.Uri {
+  const name = pictureOf(path.basename(scene.path), optics);
   if (scene.scheme === "file") {
     return vscode.Uri.joinPath(scene, "..", name);
   }

@@ -84,7 +84,12 @@ export class TreeView implements vscode.Disposable, vscode.TreeDataProvider<Bran
 
   private async ask(): Promise<void> {
     const document = this.scenes.active;
-    if (!this.view.visible || document === undefined || this.server.state.kind !== "running") {
+    if (this.server.state.kind !== "running") {
+      this.asked++;
+      this.clear();
+      return;
+    }
+    if (!this.view.visible || document === undefined) {
       return;
     }
     const asked = ++this.asked;
@@ -104,6 +109,13 @@ export class TreeView implements vscode.Disposable, vscode.TreeDataProvider<Bran
     this.view.message = tree.stale ? "The scene has errors: this is its last version without any." : "";
     this.changed.fire();
     await this.follow(vscode.window.activeTextEditor);
+  }
+
+  /** Without a tree the view says why: package.json has the words. */
+  private clear(): void {
+    this.roots = this.placed = [];
+    this.view.message = "";
+    this.changed.fire();
   }
 
   private branch(node: protocol.Node, parent: Branch | undefined): Branch {

@@ -10,6 +10,7 @@ import { after, before } from "node:test";
 
 import type { Locator } from "playwright-core";
 
+import { contrasts } from "./contrast";
 import { latencies, median } from "./latency";
 import { stepper } from "./step";
 import { OUT, startVSCode, type VSCode } from "./vscode";
@@ -22,6 +23,21 @@ const BALLS = "two-balls.m3d";
 const SKY: [number, number] = [0.1, 0.1];
 const PILLAR: [number, number] = [0.289, 0.475];
 const WALL: [number, number] = [0.5, 0.47];
+
+const THEMES = [
+  { name: "dark", theme: "Default Dark Modern", mark: "vs-dark", icon: "dark" },
+  { name: "light", theme: "Default Light Modern", mark: "vs", icon: "light" },
+  { name: "high contrast", theme: "Default High Contrast", mark: "hc-black", icon: "dark" },
+  { name: "light high contrast", theme: "Default High Contrast Light", mark: "hc-light", icon: "light" },
+] as const;
+
+/** How a webview's body is marked in each. */
+const THEME_CLASS = {
+  "vs-dark": "vscode-dark",
+  vs: "vscode-light",
+  "hc-black": "vscode-high-contrast",
+  "hc-light": "vscode-high-contrast-light",
+};
 
 let vscode: VSCode;
 let workbench: Workbench;
@@ -41,7 +57,7 @@ after(async () => {
 
 step("a scene opens, coloured, and the server starts", async () => {
   await workbench.openScene(SCENE);
-  await workbench.page.locator('.statusbar-item[aria-label*="Mirage3D: the language server runs"]').waitFor();
+  await workbench.statusIs("Mirage3D: the language server runs");
   const colors = new Set<string>();
   for (const word of ["SCENE", "FROM", "LOGSCALE"]) {
     colors.add(await workbench.word(SCENE, word).evaluate((span) => getComputedStyle(span).color));
@@ -110,7 +126,7 @@ step("a scene is laid out", async () => {
   await workbench.openScene(BALLS);
   await workbench.goTo(BALLS, "ball = {");
   await workbench.page.keyboard.type("      ");
-  await workbench.command("M3D: Format Scene");
+  await workbench.command("Mirage3D: Format Scene");
   const lines = workbench.editor(BALLS).locator(".view-line");
   await workbench.eventually("the line begins at the margin", async () =>
     (await lines.allTextContents()).some((line) => /^ball\s=/.test(line)),
@@ -147,7 +163,7 @@ step("the time from a key to its diagnostic, without a preview", async () => {
 
 step("the preview shows the mirage, and straight light something else where it should", async () => {
   await workbench.goTo(SCENE, "SOLID /* lower left");
-  await workbench.command("M3D: Open Preview to the Side");
+  await workbench.command("Mirage3D: Open Preview to the Side");
   await workbench.pictureIsDone();
   const [sky, pillar, wall] = await workbench.colors([SKY, PILLAR, WALL]);
   await workbench.preview.getByRole("button", { name: "Straight" }).click();
@@ -199,11 +215,16 @@ step("the picture follows the text, and says when it does not", async () => {
   await workbench.page.keyboard.type("0.9");
   await workbench.colorBecomes(PILLAR, (now) => now !== String(before));
   await workbench.page.keyboard.type(" , ,");
-  await workbench.preview.locator('.m3d-badge[data-kind="stale"]').waitFor();
+  const badge = workbench.preview.locator('.m3d-badge[data-kind="stale"]');
+  await badge.filter({ hasText: /^Stale: line \d+: / }).waitFor();
   await workbench.screenshot("stale");
-  for (let count = 0; count < 4; count++) {
-    await workbench.page.keyboard.press("Backspace");
-  }
+  const line = /line (\d+)/.exec(await badge.innerText())?.[1] ?? "";
+  await badge.click();
+  const number = workbench.editor(SCENE).locator(".line-numbers.active-line-number");
+  await number.filter({ hasText: new RegExp(`^${line}$`) }).waitFor();
+  await workbench.focus(SCENE);
+  await workbench.page.keyboard.press("Control+z");
+  await badge.waitFor({ state: "hidden" });
   await workbench.pictureIsDone();
 });
 
@@ -239,7 +260,7 @@ step("a pinned preview keeps its scene, and goes on to follow the editor", async
   await workbench.preview.getByRole("button", { name: "Pin" }).click();
   await tab(`[Preview ${SCENE}]`).waitFor();
   await workbench.openScene(BALLS);
-  await workbench.command("M3D: Open Preview to the Side");
+  await workbench.command("Mirage3D: Open Preview to the Side");
   await tab(`Preview ${BALLS}`).waitFor();
   assert.equal(await tab(`[Preview ${SCENE}]`).count(), 1);
   await workbench.pictureIsDone();
@@ -256,7 +277,7 @@ step("a pinned preview keeps its scene, and goes on to follow the editor", async
 step("the dump opens beside the scene and follows the cursor", async () => {
   await workbench.openScene(SCENE);
   await workbench.goTo(SCENE, "RECTANGLE {");
-  await workbench.command("M3D: Open Dump to the Side");
+  await workbench.command("Mirage3D: Open Dump to the Side");
   const dump = workbench.editor("m3d-dump");
   await dump.locator(".view-line", { hasText: "RECTANGLE" }).first().waitFor();
   await dump.locator(".view-overlays .cdr").first().waitFor();
@@ -273,24 +294,73 @@ step("the compiled scene and the syntax tree show what the cursor is in", async 
 });
 
 step("a scene is compiled by its task", async () => {
-  await workbench.command("M3D: Compile Scene to .m3ir");
+  await workbench.command("Mirage3D: Compile Scene to .m3ir");
   const target = path.join(vscode.folder, "merman.m3ir");
   await workbench.eventually("the compiled scene is there", () => Promise.resolve(fs.existsSync(target)));
   assert.ok(fs.statSync(target).size > 1000);
 });
 
-step("it is seen in high contrast", async () => {
-  await workbench.focus(SCENE);
-  await workbench.command("M3D: Open Preview to the Side");
-  await workbench.page.emulateMedia({ forcedColors: "active", colorScheme: "dark" });
-  const backgrounds = new Set<string>();
-  for (const name of ["Mirage", "Straight", "Both"]) {
-    const button = workbench.preview.getByRole("button", { name });
-    backgrounds.add(await button.evaluate((element) => getComputedStyle(element).backgroundColor));
+for (const { name, theme, mark, icon } of THEMES) {
+  step(`it is seen in the theme ${name}`, async () => {
+    vscode.set("User", { "workbench.colorTheme": theme });
+    await workbench.page.locator(`.monaco-workbench.${mark}`).waitFor();
+    await workbench.focus(SCENE);
+    await workbench.command("Mirage3D: Open Preview to the Side");
+    await workbench.preview.locator(`body.${THEME_CLASS[mark]}`).waitFor();
+    await workbench.preview.getByRole("button", { name: "Both" }).click();
+    await workbench.pictureIsDone();
+    for (const selector of ["[aria-pressed=true]", "[aria-pressed=false]", ".m3d-side", ".m3d-pixel"]) {
+      const { text } = await contrasts(workbench.preview.locator(selector).first());
+      assert.ok(text >= 4.5, `${selector} has a contrast of ${text.toFixed(2)}`);
+    }
+    // With the keyboard, on the button that is pressed: the outline is off the button, and seen on what is there.
+    await workbench.preview.locator("canvas").press("Shift+Tab");
+    const pressed = workbench.preview.locator(".m3d-button[aria-pressed=true]:focus-visible").first();
+    await pressed.waitFor();
+    const { outline, offset } = await contrasts(pressed);
+    assert.ok(offset >= 1 && outline >= 3, `the focus is drawn at ${offset} with a contrast of ${outline.toFixed(2)}`);
+    const tab = workbench.page.locator('.tab[aria-label*="Preview "] .monaco-icon-label').first();
+    const image = await tab.evaluate((element) => getComputedStyle(element, "::before").backgroundImage);
+    assert.match(image, new RegExp(`m3d-${icon}\\.svg`));
+    await workbench.screenshot(`theme-${name.replace(" ", "-")}`);
+  });
+}
+
+step("a task says how it has ended", async () => {
+  vscode.set("User", { "workbench.colorTheme": "Default Dark Modern" });
+  await workbench.openScene(SCENE);
+  await workbench.command("Mirage3D: Compile Scene to .m3ir");
+  await workbench.page.locator(".notification-toast", { hasText: "merman.m3ir is written." }).waitFor();
+  await workbench.command("Notifications: Clear All Notifications");
+});
+
+step("what is typed by hand has one end", async () => {
+  await workbench.openScene("wheel.m3d");
+  const before = workbench.read("wheel.m3d").trimEnd();
+  await workbench.typeAtEnd("wheel.m3d", "/* a comment */ SOLID { SPHERE { CENTER < 1, 2, 3 > } }");
+  await workbench.word("wheel.m3d", "3").waitFor();
+  await workbench.save();
+  const typed = workbench.read("wheel.m3d").slice(before.length).replace(/\s+/g, " ").trim();
+  assert.equal(typed, "/* a comment */ SOLID { SPHERE { CENTER < 1, 2, 3 > } }");
+});
+
+step("a new scene shows a mirage, and Ctrl+S in its preview saves the scene", async () => {
+  await workbench.command("Mirage3D: New Scene");
+  await workbench.editor("untitled").locator(".view-line", { hasText: "PROFILE" }).first().waitFor();
+  await workbench.command("Mirage3D: Open Preview to the Side");
+  await workbench.preview.getByRole("button", { name: "Mirage" }).click();
+  await workbench.pictureIsDone();
+  const [ball, below] = await workbench.colors([[0.5, 0.35], [0.5, 0.78]]);
+  for (const [red = 0, , blue = 0] of [ball ?? [], below ?? []]) {
+    assert.ok(red > blue, "the ball is seen twice");
   }
-  assert.equal(backgrounds.size, 2, "the chosen light looks like the others");
-  await workbench.screenshot("high-contrast");
-  await workbench.page.emulateMedia({ forcedColors: "none", colorScheme: "light" });
+  await workbench.screenshot("new-scene");
+  await workbench.preview.locator("canvas").press("Control+s");
+  const proposed = workbench.page.locator(".quick-input-widget:visible .quick-input-box input");
+  await workbench.eventually("a file is proposed", async () => (await proposed.inputValue()).includes(vscode.folder));
+  await proposed.fill(path.join(vscode.folder, "new.m3d"));
+  await workbench.page.keyboard.press("Enter");
+  await workbench.eventually("it is saved", () => Promise.resolve(fs.existsSync(path.join(vscode.folder, "new.m3d"))));
 });
 
 step("how long the extension takes to start", async () => {

@@ -38,7 +38,7 @@ step("errors are shown as they are typed", async () => {
 });
 
 step("the preview says why it has no picture", async () => {
-  await workbench.command("M3D: Open Preview to the Side");
+  await workbench.command("Mirage3D: Open Preview to the Side");
   await workbench.preview.getByText(/Nothing is rendered in Restricted Mode/).first().waitFor();
   assert.equal(await workbench.preview.getByLabel("Zoom").innerText(), "–");
   await workbench.screenshot("restricted");

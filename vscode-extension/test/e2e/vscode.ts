@@ -10,6 +10,9 @@ const REPOSITORY = process.env.REPOSITORY ?? process.cwd();
 export const OUT = process.env.OUT ?? path.join(REPOSITORY, "out");
 const ENTRY = path.join(OUT, "e2e/node_modules/code-server/out/node/entry.js");
 
+/** The language server of this repository. */
+export const SERVER = path.join(REPOSITORY, ".venv/bin/m3d-lsp");
+
 const SETTINGS = {
   "telemetry.telemetryLevel": "off",
   "workbench.startupEditor": "none",
@@ -32,14 +35,16 @@ export interface VSCode {
   url: string;
   /** The folder of the scenes. */
   folder: string;
+  /** Changes settings of the person or of the machine, as if their files were edited; VS Code follows. */
+  set(whose: "User" | "Machine", changes: Record<string, unknown>): void;
   stop(): Promise<void>;
 }
 
 /**
  * Starts one; its workspace has the examples of the repository and, in `.venv`, its programs. A workspace that is not
- * `trusted` is opened in Restricted Mode, and the machine's settings name the server.
+ * `trusted` is opened in Restricted Mode, and the machine's settings name the server. `server` is another server.
  */
-export async function startVSCode(name: string, trusted: boolean): Promise<VSCode> {
+export async function startVSCode(name: string, trusted: boolean, server?: string): Promise<VSCode> {
   const run = fs.mkdtempSync(path.join(os.tmpdir(), "m3d-workbench-"));
   const folder = path.join(run, "scenes");
   fs.mkdirSync(folder);
@@ -56,11 +61,16 @@ export async function startVSCode(name: string, trusted: boolean): Promise<VSCod
     "security.workspace.trust.enabled": !trusted,
     "security.workspace.trust.startupPrompt": "never",
   };
-  fs.writeFileSync(path.join(run, "data/User/settings.json"), JSON.stringify(settings, null, 2));
-  if (!trusted) {
-    const machine = { "m3d.server.path": path.join(REPOSITORY, ".venv/bin/m3d-lsp") };
-    fs.writeFileSync(path.join(run, "data/Machine/settings.json"), JSON.stringify(machine));
-  }
+  const own: Record<"User" | "Machine", Record<string, unknown>> = {
+    User: settings,
+    Machine: trusted && server === undefined ? {} : { "m3d.server.path": server ?? SERVER },
+  };
+  const set: VSCode["set"] = (whose, changes) => {
+    Object.assign(own[whose], changes);
+    fs.writeFileSync(path.join(run, `data/${whose}/settings.json`), JSON.stringify(own[whose], null, 2));
+  };
+  set("User", {});
+  set("Machine", {});
 
   const env: NodeJS.ProcessEnv = { ...process.env, EXTENSIONS_GALLERY: "{}", HOME: path.join(run, "home") };
   // Within a terminal of VS Code the command line would talk to that one.
@@ -80,18 +90,19 @@ export async function startVSCode(name: string, trusted: boolean): Promise<VSCod
   const options =
     "--auth none --disable-telemetry --disable-update-check --disable-getting-started-override --ignore-last-opened" +
     (trusted ? " --disable-workspace-trust" : "");
-  const server = spawn(
+  const code = spawn(
     process.execPath,
     [ENTRY, ...places, ...options.split(" "), "--bind-addr", `127.0.0.1:${port}`],
     { env, stdio: ["ignore", log, log] },
   );
   const url = `http://127.0.0.1:${port}`;
-  await answers(`${url}/healthz`, server, `${name}.log`);
+  await answers(`${url}/healthz`, code, `${name}.log`);
   return {
     url: `${url}/?folder=${folder}`,
     folder,
+    set,
     stop: async () => {
-      await ended(server);
+      await ended(code);
       fs.rmSync(run, { recursive: true, force: true });
     },
   };
@@ -115,7 +126,7 @@ function freePort(): Promise<number> {
 }
 
 async function answers(url: string, server: ChildProcess, log: string): Promise<void> {
-  for (let tries = 0; tries < 600 && server.exitCode === null; tries++) {
+  for (let tries = 0; tries < 3000 && server.exitCode === null; tries++) {
     try {
       if ((await fetch(url)).ok) {
         return;

@@ -7,8 +7,8 @@ import { chromium, type Browser, type FrameLocator, type Locator, type Page } fr
 import { OUT, type VSCode } from "./vscode";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** How long anything may take, in ms. */
-const PATIENCE = 30_000;
+/** How long anything may take, in ms: on a busy machine much takes long, and nothing is waited for in vain. */
+const PATIENCE = 300_000;
 
 const ARGUMENTS = [
   "--no-sandbox",
@@ -136,6 +136,18 @@ export class Workbench {
     return this.editor(name).locator(".view-line span span", { hasText: new RegExp(`^\\s*${text}\\s*$`) }).first();
   }
 
+  /** The item in the status bar, once what it says of the server matches. */
+  async statusIs(text: string): Promise<void> {
+    await this.page.locator(`.statusbar-item[aria-label*="${text}"]`).waitFor();
+  }
+
+  /** Runs a scene's text through the keyboard, at the end of an open file. */
+  async typeAtEnd(name: string, text: string): Promise<void> {
+    await this.focus(name);
+    await this.page.keyboard.press("Control+End");
+    await this.page.keyboard.type(text);
+  }
+
   // --- the preview ---------------------------------------------------------------------------------------------
 
   get preview(): FrameLocator {
@@ -144,6 +156,10 @@ export class Workbench {
 
   /** Waits until the picture is whole and that of the text. */
   async pictureIsDone(): Promise<void> {
+    // What was just asked for is seen in the next frame; a preview that has no picture yet is in another state.
+    await this.preview
+      .locator("canvas")
+      .evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
     await this.preview.locator('.m3d-pane[data-state="current"]').waitFor();
   }
 

@@ -34,7 +34,7 @@ function red(): number | null {
 test("the picture grows with its tiles", async () => {
   exposure.request("full", FULL);
   expect(asked(0).request).toEqual({ optics: "mirage", ...FULL });
-  expect([exposure.rendering, red()]).toEqual([true, null]);
+  expect([exposure.rendering, exposure.progress, red()]).toEqual([true, 0, null]);
   asked(0).tile(plain(10, 2));
   expect([exposure.progress, red()]).toEqual([0.25, 10]);
   asked(0).tile(plain(20));
@@ -88,10 +88,10 @@ test("the last good picture comes back after an error", async () => {
 test("the full size is that of full pictures; it is known whether they would have been larger", async () => {
   exposure.request("full", FULL);
   await asked(0).answer({ width: 20, height: 12 });
-  expect(exposure.full).toEqual({ width: 20, height: 12, limited: true });
+  expect(exposure.full).toEqual({ width: 20, height: 12, aspect: 1, limited: true });
   exposure.request("draft", DRAFT);
   await asked(1).answer({ width: 2, height: 1 });
-  expect(exposure.full).toEqual({ width: 20, height: 12, limited: true });
+  expect(exposure.full).toEqual({ width: 20, height: 12, aspect: 1, limited: true });
   exposure.request("full", FULL);
   await asked(2).answer({ width: 8, height: 8 });
   expect(exposure.full?.limited).toBe(false);

@@ -14,6 +14,7 @@ export class FakeHost implements Host {
   readonly calls: unknown[][] = [];
   events: Events | undefined;
   hit: Hit | null = null;
+  pickFails: string | null = null;
   maskFound: Mask | null = null;
 
   listen(events: Events): void {
@@ -22,7 +23,17 @@ export class FakeHost implements Host {
 
   render(request: RenderRequest, tile: (tile: Tile) => void): Promise<Rendered> {
     return new Promise((resolve, reject) => {
-      const whole = { version: 1, stale: false, width: 2, height: 2, seconds: 0.1, bent: true };
+      const whole = {
+        version: 1,
+        stale: false,
+        width: 2,
+        height: 2,
+        aspect: 1,
+        ownWidth: 2,
+        ownHeight: 2,
+        seconds: 1,
+        bent: true,
+      };
       this.asked.push({
         request,
         tile,
@@ -40,7 +51,7 @@ export class FakeHost implements Host {
 
   pick(optics: Optics, { x, y, width, height }: Pixel): Promise<Hit | null> {
     this.calls.push(["pick", optics, x, y, `of ${width} x ${height}`]);
-    return Promise.resolve(this.hit);
+    return this.pickFails === null ? Promise.resolve(this.hit) : Promise.reject(new Error(this.pickFails));
   }
 
   mask(optics: Optics): Promise<Mask | null> {
@@ -58,6 +69,18 @@ export class FakeHost implements Host {
 
   pin(pinned: boolean): void {
     this.calls.push(["pin", pinned]);
+  }
+
+  carryOut(action: string): void {
+    this.calls.push(["carryOut", action]);
+  }
+
+  showProblem(): void {
+    this.calls.push(["showProblem"]);
+  }
+
+  showOutput(): void {
+    this.calls.push(["showOutput"]);
   }
 
   chose(choice: Choice): void {

@@ -6,7 +6,7 @@ import type { Hit, Scene } from "../../preview/host";
 import { Preview } from "../../preview/preview";
 import { FakeHost, plain, settled } from "./fake-host";
 
-const SCENE: Scene = { id: "file:///a.m3d", name: "a.m3d", version: 1, render: true, errors: false };
+const SCENE: Scene = { id: "file:///a.m3d", name: "a.m3d", version: 1, render: true, errors: false, problem: null };
 const HIT = { line: 7, position: [0, 0, 0], depth: 1, path: { length: 1, arcs: 1 } } as unknown as Hit;
 
 let host: FakeHost;
@@ -72,11 +72,57 @@ function click(label: string): void {
   root.querySelector<HTMLElement>(`button[aria-label="${label}"]`)?.click();
 }
 
-test("the first picture is a full one, as large as the pane", () => {
+test("the first picture is a full one, as large as the pane, in the pixels of the screen", () => {
+  vi.stubGlobal("devicePixelRatio", 1.5);
   scene();
   expect(host.asked.map(({ request }) => request)).toEqual([
-    { optics: "mirage", maxWidth: 200, maxHeight: 100, samples: 1 },
+    { optics: "mirage", maxWidth: 300, maxHeight: 150, fill: true, samples: 1 },
   ]);
+});
+
+test("the scene's own size is rendered on wish, shown in the shape that its ASPECT gives it", async () => {
+  scene();
+  root.querySelector<HTMLElement>(".m3d-whole input")?.click();
+  expect(host.asked[1]?.request).toEqual({ optics: "mirage", samples: 1 });
+  await host.asked[1]?.answer({ width: 320, height: 200, aspect: 1.2, ownWidth: 320, ownHeight: 200 });
+  await drawn();
+  // 320 by 240 in a pane of 200 by 100.
+  expect(text(".m3d-zoom")).toBe("42 %");
+  expect(text(".m3d-pixel")).toBe("mirage 320 × 200 in 1.00 s");
+});
+
+test("a picture that could not have the scene's own size says so", async () => {
+  scene();
+  root.querySelector<HTMLElement>(".m3d-whole input")?.click();
+  await host.asked[1]?.answer({ width: 2000, height: 2000, ownWidth: 4000, ownHeight: 4000 });
+  await drawn();
+  expect(text(".m3d-pixel")).toContain("mirage 2000 × 2000 (of 4000 × 4000, too many for a preview");
+});
+
+test("a scene whose full picture is made fast needs no small ones", async () => {
+  scene();
+  await host.asked[0]?.answer({ width: 200, height: 100, seconds: 0.1 });
+  for (let version = 2; version < 4; version++) {
+    scene({ version });
+    calm();
+    expect(host.asked[version - 1]?.request.maxWidth).toBe(200);
+    await host.asked[version - 1]?.answer({ version, width: 200, height: 100, seconds: 0.1 });
+  }
+  vi.advanceTimersByTime(1000);
+  expect(host.asked.length).toBe(3);
+});
+
+test("once full pictures are overtaken by the keys there are small ones again", async () => {
+  scene();
+  await host.asked[0]?.answer({ width: 200, height: 100, seconds: 0.1 });
+  scene({ version: 2 });
+  calm();
+  scene({ version: 3 });
+  calm();
+  expect(host.asked[2]?.request.maxWidth).toBe(200);
+  scene({ version: 4 });
+  calm();
+  expect(host.asked[3]?.request.maxWidth).toBe(100);
 });
 
 test("while one types there are small pictures, and a full one when the text has rested", async () => {
@@ -84,7 +130,7 @@ test("while one types there are small pictures, and a full one when the text has
   await host.asked[0]?.answer({ width: 200, height: 100 });
   scene({ version: 2 });
   calm();
-  expect(host.asked[1]?.request).toEqual({ optics: "mirage", maxWidth: 100, maxHeight: 50, samples: 1 });
+  expect(host.asked[1]?.request).toEqual({ optics: "mirage", maxWidth: 100, maxHeight: 50, fill: true, samples: 1 });
   await host.asked[1]?.answer({ version: 2 });
   scene({ version: 3 });
   calm();
@@ -160,7 +206,49 @@ test("an error is said on the picture, which stays", async () => {
   host.events?.again();
   await host.asked[1]?.answer({ status: "error", message: "no memory" });
   await drawn();
-  expect(text(".m3d-badge")).toBe("Error: last good picture: no memory");
+  expect(text(".m3d-badge")).toBe("Error, last good picture: no memory");
+  root.querySelector<HTMLElement>(".m3d-badge")?.click();
+  expect(host.calls).toContainEqual(["showOutput"]);
+});
+
+test("before the first tile nothing is done yet", async () => {
+  scene();
+  await rendered();
+  host.events?.again();
+  await drawn();
+  expect(text(".m3d-badge")).toBe("Rendering 0 %");
+});
+
+test("a click on what is stale leads to the first error", async () => {
+  scene();
+  await rendered();
+  scene({ version: 2, errors: true, problem: "line 12: Invalid SUN statement" });
+  await drawn();
+  expect(text(".m3d-badge")).toBe("Stale: line 12: Invalid SUN statement");
+  root.querySelector<HTMLElement>(".m3d-badge")?.click();
+  expect(host.calls).toContainEqual(["showProblem"]);
+});
+
+test("a click on a picture that waits to be saved makes it anew", async () => {
+  scene();
+  await rendered();
+  scene({ version: 2, render: false });
+  await drawn();
+  root.querySelector<HTMLElement>(".m3d-badge")?.click();
+  expect(host.asked.length).toBe(2);
+});
+
+test("where it cannot be known what a pixel shows, it is not said that it shows nothing", async () => {
+  scene();
+  await rendered();
+  host.pickFails = "the language server does not run";
+  press("ArrowLeft");
+  vi.advanceTimersByTime(120);
+  await drawn();
+  expect(text(".m3d-hit")).toBe("what is here is not known: the language server does not run");
+  press("Enter");
+  await settled();
+  expect(host.calls.some(([name]) => name === "reveal")).toBe(false);
 });
 
 test("nothing is rendered while nobody sees it", () => {
@@ -174,12 +262,15 @@ test("nothing is rendered while nobody sees it", () => {
   expect(host.asked.length).toBe(1);
 });
 
-test("while there can be no picture it says why", async () => {
-  host.events?.blocked("Nothing is rendered in Restricted Mode.");
+test("while there can be no picture it says why, once, and what to do about it", async () => {
+  host.events?.blocked({ reason: "Nothing is rendered in Restricted Mode.", actions: ["Manage Workspace Trust"] });
   scene();
   await drawn();
   expect(host.asked.length).toBe(0);
-  expect(text(".m3d-blocked")).toBe("Nothing is rendered in Restricted Mode.");
+  expect(text(".m3d-blocked p")).toBe("Nothing is rendered in Restricted Mode.");
+  expect(root.querySelector<HTMLElement>(".m3d-badge")?.hidden).toBe(true);
+  click("Manage Workspace Trust");
+  expect(host.calls).toContainEqual(["carryOut", "Manage Workspace Trust"]);
   host.events?.blocked(null);
   expect(host.asked.length).toBe(1);
 });
@@ -192,6 +283,11 @@ test("both kinds of light are rendered for the slider, which arrow keys move", a
   expect(host.asked.slice(1).map(({ request }) => request.optics)).toEqual(["straight"]);
   const slider = root.querySelector<HTMLElement>("[role=slider]");
   expect([slider?.hidden, slider?.getAttribute("aria-valuenow")]).toEqual([false, "50"]);
+  const sides = [...root.querySelectorAll<HTMLElement>(".m3d-side")];
+  expect(sides.map(({ textContent, hidden }) => [textContent, hidden])).toEqual([
+    ["mirage", false],
+    ["straight", false],
+  ]);
   slider?.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }));
   await drawn();
   expect(slider?.getAttribute("aria-valuenow")).toBe("52");
@@ -262,9 +358,35 @@ test("everything has a name, and can be reached with the keyboard", () => {
   expect(reached.length).toBeGreaterThan(10);
   for (const element of reached) {
     const label = element.getAttribute("aria-label") ?? element.closest("label")?.textContent ?? "";
-    expect(label, element.outerHTML).not.toBe("");
-    expect(element.tabIndex, element.outerHTML).toBe(0);
+    if (!element.classList.contains("m3d-badge")) {
+      expect(label, element.outerHTML).not.toBe("");
+    }
   }
+});
+
+test("the second stop of the Tab key is the picture; the arrow keys go along the toolbar", () => {
+  const all = [...root.querySelectorAll<HTMLElement>("button, input, canvas")];
+  const stops = all.filter(({ tabIndex }) => tabIndex === 0);
+  expect(stops.map((stop) => stop.getAttribute("aria-label")?.slice(0, 7)).slice(0, 2)).toEqual(["Mirage", "Picture"]);
+  const reached: string[] = [];
+  stops[0]?.focus();
+  for (let count = 0; count < 10; count++) {
+    reached.push(document.activeElement?.getAttribute("aria-label") ?? "own size");
+    document.activeElement?.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+  }
+  expect(reached).toEqual([
+    "Mirage",
+    "Straight",
+    "Both",
+    "Smaller",
+    "Larger",
+    "Fit",
+    "Actual size",
+    "own size",
+    "Save",
+    "Pin",
+  ]);
+  expect((document.activeElement as HTMLElement).getAttribute("aria-label")).toBe("Mirage");
 });
 
 test("buttons do what they say", async () => {

@@ -12,6 +12,7 @@ const CURRENT: State = {
   rendering: false,
   progress: 1,
   stale: false,
+  problem: null,
   outdated: false,
   any: true,
 };
@@ -21,9 +22,11 @@ test.each([
   [{ rendering: true, progress: 0.256 }, "rendering", "Rendering 25 %"],
   [{ outdated: true }, "outdated", "Stale"],
   [{ stale: true, rendering: true }, "stale", "Stale"],
-  [{ error: "no memory", stale: true }, "error", "Error: last good picture"],
-  [{ error: "no memory", any: false }, "error", "Error"],
-  [{ blocked: "Restricted Mode", error: "no memory" }, "blocked", "No picture"],
+  [{ stale: true, problem: "line 3: no" }, "stale", "Stale: line 3: no"],
+  [{ error: "no memory", stale: true }, "error", "Error, last good picture: no memory"],
+  [{ error: "no memory", any: false }, "error", "Error: no memory"],
+  [{ any: false }, "empty", ""],
+  [{ blocked: "Restricted Mode", error: "no memory" }, "blocked", ""],
 ] as [Partial<State>, string, string][])("%j", (state, kind, text) => {
   expect(badge({ ...CURRENT, ...state })).toMatchObject({ kind, text });
 });

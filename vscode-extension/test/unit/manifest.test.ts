@@ -4,6 +4,7 @@ import * as fs from "node:fs";
 import * as path from "node:path";
 import { expect, test } from "vitest";
 
+import language from "../../language-configuration.json" with { type: "json" };
 import manifest from "../../package.json" with { type: "json" };
 
 const ROOT = path.join(import.meta.dirname, "../..");
@@ -37,6 +38,32 @@ test("the defaults in the code are those of the settings", () => {
   expect(read.length).toBeGreaterThan(4);
   for (const [, name = "", value = ""] of read) {
     expect(settings[`m3d.preview.${name}`]?.default, name).toEqual(JSON.parse(value));
+  }
+});
+
+test("who types the project's name finds every command", () => {
+  expect(new Set(manifest.contributes.commands.map(({ category }) => category))).toEqual(new Set(["Mirage3D"]));
+});
+
+test("the views say what is the matter, whatever the server does", () => {
+  for (const { id } of manifest.contributes.views.m3d) {
+    const states = manifest.contributes.viewsWelcome.filter(({ view }) => view === id).map(({ when }) => when);
+    for (const state of ["starting", "missing", "failed"]) {
+      expect(states.filter((when) => when.includes(`m3d.server == ${state}`)).length, state).toBe(1);
+    }
+  }
+});
+
+test("what is typed by hand has one end", () => {
+  for (const { open, close } of language.autoClosingPairs) {
+    expect([open, close].map(({ length }) => length)).toEqual([1, 1]);
+  }
+});
+
+test("the extension's page shows no pictures that it cannot show", () => {
+  const page = fs.readFileSync(path.join(ROOT, "README.md"), "utf8");
+  for (const [, address = ""] of page.matchAll(/!?\[[^\]]*\]\(([^)]+)\)/g)) {
+    expect(address).toMatch(/^https:/);
   }
 });
 

@@ -2,7 +2,14 @@
 
 import { expect, test } from "vitest";
 
-import { compileArguments, renderArguments, type CompileTask, type RenderTask } from "../../src/arguments";
+import {
+  compileArguments,
+  pictureOf,
+  renderArguments,
+  successOf,
+  type CompileTask,
+  type RenderTask,
+} from "../../src/arguments";
 import manifest from "../../package.json" with { type: "json" };
 
 test.each([
@@ -17,10 +24,26 @@ test.each([
 
 test.each([
   [{}, "a.m3d -o a.png"],
-  [{ scene: "a.m3ir", optics: "straight" }, "a.m3ir -o a.png --straight"],
+  [{ scene: "a.m3ir", optics: "straight" }, "a.m3ir -o a-straight.png --straight"],
   [{ output: "a.exr", samples: 16, arguments: ["--width", "80"] }, "a.m3d -o a.exr --samples 16 --width 80"],
 ] as [Partial<RenderTask>, string][])("m3d-render %j", (task, expected) => {
   expect(renderArguments({ type: "m3d-render", scene: "a.m3d", ...task }).join(" ")).toBe(expected);
+});
+
+test.each([
+  [{ type: "m3dc" }, "a.m3ir is written."],
+  [{ type: "m3dc", action: "check" }, "a.m3d has no errors."],
+  [{ type: "m3dc", action: "dump", output: "out/all.txt" }, "out/all.txt is written."],
+  [{ type: "m3d-render", optics: "straight" }, "a-straight.png is written."],
+])("a task that has ended well says so: %j", (task, expected) => {
+  expect(successOf({ scene: "a.m3d", ...task } as CompileTask | RenderTask)).toBe(expected);
+});
+
+test("pictures of both kinds of light are files of their own", () => {
+  expect([pictureOf("merman.m3d", "mirage"), pictureOf("merman.m3d", "straight")]).toEqual([
+    "merman.png",
+    "merman-straight.png",
+  ]);
 });
 
 /** What the problem matcher finds in a line, by the names of its groups. */

@@ -24,6 +24,13 @@ async def test_a_mistake_is_shown_where_it_is(editor: Editor) -> None:
     assert shown.code_description.href.endswith("diagnostics.md#m3d0401")
 
 
+@pytest.mark.parametrize("text", ["", "\n\n", "/* to be written */\n"])
+async def test_a_file_that_is_still_empty_is_no_mistake(editor: Editor, text: str) -> None:
+    (shown,) = await editor.diagnostics(editor.open(text))
+    assert shown.severity == types.DiagnosticSeverity.Information
+    assert shown.message.startswith("Empty data file")
+
+
 async def test_it_goes_when_it_is_mended(editor: Editor) -> None:
     scene = editor.open("SOLID { SPHERE { RADIUS $[-$]5 } }\n" + LIGHT)
     assert await editor.diagnostics(scene)

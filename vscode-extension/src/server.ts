@@ -26,6 +26,7 @@ export type ServerState =
 
 /** The name that the server gives itself. */
 const NAME = "m3d-lsp";
+const IS_IT = `Is it ${NAME}?`;
 
 /** How long the server may take to answer at its start, and to end when it is asked to, in ms. */
 const TO_ANSWER = 60_000;
@@ -70,6 +71,8 @@ export class Server implements vscode.Disposable {
   private current: ServerState = { kind: "starting" };
   private turn: Promise<void> = Promise.resolve();
   private readonly ends = new Ends();
+  /** The program that has run as a server last: if it ends early, it is not for being the wrong one. */
+  private proven: string | undefined;
 
   get state(): ServerState {
     return this.current;
@@ -147,25 +150,32 @@ export class Server implements vscode.Disposable {
     client.onNotification(protocol.tile, (tile) => this.tileCame.fire(tile));
     this.running = { client, process };
     const ended = new Promise<never>((_, reject) => {
-      process.once("error", (fault) => reject(new Error(`${program} cannot be started: ${fault.message}`)));
+      process.once("error", (fault) => reject(new Error(`${program} cannot be started: ${fault.message}. ${IS_IT}`)));
       process.once("exit", (status, signal) => {
-        reject(new Error(`${program} ended (${signal ?? `status ${status ?? "unknown"}`}) before it answered`));
+        const how = signal ?? `status ${status ?? "unknown"}`;
+        reject(new Error(`${program} ended (${how}) before it answered. ${IS_IT}`));
       });
     });
-    const late = `${program} has not answered within ${TO_ANSWER / 1000} s`;
+    const late = `${program} has not answered within ${TO_ANSWER / 1000} s. ${IS_IT}`;
+    // A client whose server ends meanwhile may count as started, without an answer.
+    const answered = client.start().then(() => (client.initializeResult === undefined ? ended : undefined));
     try {
-      await within(TO_ANSWER, late, Promise.race([client.start(), ended]));
+      await within(TO_ANSWER, late, Promise.race([answered, ended]));
       const { name, version = "" } = client.initializeResult?.serverInfo ?? { name: "without a name" };
       if (name !== NAME) {
-        throw new Error(`${program} is another language server, ${name}`);
+        throw new Error(`${program} is another language server, ${name}. ${NAME} is wanted.`);
       }
+      this.proven = program;
       this.become({ kind: "running", program, version });
     } catch (fault) {
       // Given up for another start, it has not failed.
       const hasFailed = this.isRunning(process) && !process.killed;
+      const hasEnded = process.exitCode !== null || process.signalCode !== null;
       await this.stop();
-      if (hasFailed) {
-        this.fail(`${fault instanceof Error ? fault.message : String(fault)}. Is it ${NAME}?`);
+      if (hasFailed && hasEnded && program === this.proven) {
+        this.startAgain();
+      } else if (hasFailed) {
+        this.fail(fault instanceof Error ? fault.message : String(fault));
       }
     }
   }
@@ -191,13 +201,18 @@ export class Server implements vscode.Disposable {
     };
   }
 
-  /** A server has ended without being asked to: it is started again, unless that happens too often. */
+  /** A server has ended without being asked to. */
   private hasEnded(process: ChildProcess): void {
     if (!this.isRunning(process) || this.current.kind !== "running") {
       return;
     }
     this.running = undefined;
     void end(process);
+    this.startAgain();
+  }
+
+  /** Starts a server that has ended, unless that happens too often. */
+  private startAgain(): void {
     if (this.ends.add(Date.now())) {
       this.output.warn("the language server has ended; starting it again");
       this.become({ kind: "starting" });

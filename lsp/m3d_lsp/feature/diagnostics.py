@@ -16,6 +16,8 @@ SEVERITY = {
     "warning": types.DiagnosticSeverity.Warning,
     "hint": types.DiagnosticSeverity.Hint,
 }
+# A file that is still empty is no mistake while it is edited.
+EMPTY = "M3D0112"
 # What has no effect is shown faded.
 WITHOUT_EFFECT = {
     "M3D0204", "M3D0503", "M3D0512", "M3D0514", "M3D0515", "M3D0516", "M3D0517", "M3D0518", "M3D0519", "M3D0520",
@@ -39,10 +41,11 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
     """A diagnostic in LSP's form."""
     client = snapshot.client
     page = page_of(diagnostic.code) if client.pages_of_codes else None
+    empty = diagnostic.code == EMPTY
     return types.Diagnostic(
         snapshot.range(diagnostic.span),
         diagnostic.message,
-        severity=SEVERITY[diagnostic.severity],
+        severity=types.DiagnosticSeverity.Information if empty else SEVERITY[diagnostic.severity],
         code=diagnostic.code,
         code_description=types.CodeDescription(page) if page else None,
         source=SOURCE,

@@ -8,7 +8,7 @@ import { OUT, type VSCode } from "./vscode";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 /** How long anything may take, in ms: on a busy machine much takes long, and nothing is waited for in vain. */
-const PATIENCE = 300_000;
+const PATIENCE = 180_000;
 
 const ARGUMENTS = [
   "--no-sandbox",

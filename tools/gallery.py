@@ -13,6 +13,7 @@ import numpy as np
 
 import m3d_render
 import m3dc
+from m3dc.ir import with_square_pixels
 
 ROOT = Path(__file__).parent.parent
 IMAGES = ROOT / "docs" / "images"
@@ -39,10 +40,13 @@ PICTURES = (
 
 
 def render(what: Picture) -> np.ndarray:
-    """The picture as an array (H, W, 3) of values 0..1."""
+    """The picture as an array (H, W, 3) of values 0..1. Its pixels are square, as a page shows them: where the scene
+    has an ASPECT there are more rows, so that balls look round."""
     source = (ROOT / "examples" / f"{what.example}.m3d").read_bytes()
     result = m3dc.compile(source, f"{what.example}.m3d")
-    return m3d_render.render(result.ir, straight=what.straight)
+    view = result.ir.scene.view
+    height = round(view.height * view.aspect)
+    return m3d_render.render(with_square_pixels(result.ir), straight=what.straight, height=height)
 
 
 def main() -> None:

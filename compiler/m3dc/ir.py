@@ -357,6 +357,14 @@ class SceneIR:
         return scene_html(self)
 
 
+def with_square_pixels(ir: SceneIR) -> SceneIR:
+    """The scene as it is seen where pixels are as tall as wide: its ASPECT is undone. The tables are the same ones."""
+    view = ir.scene.view
+    if view.aspect == 1:
+        return ir
+    return SceneIR(ir.scene._replace(view=view._replace(aspect=1.0)), ir.tables, ir.source)
+
+
 def empty_tables() -> dict[str, Table]:
     """Every table of TABLES without a row."""
     return {

@@ -22,7 +22,7 @@ from m3d_render import Cancelled, PictureError, Prepared, SceneError, prepare, w
 from m3d_render.command import CommandError, check_folder
 from m3d_render.metadata import metadata
 from m3d_render.picture import check_suffix
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, with_square_pixels
 
 from .channel import Channel
 from .finished import LAYERS, Finished
@@ -66,11 +66,8 @@ class Unprepared:
     @cached_property
     def square(self) -> Unprepared:
         """The same scene seen with square pixels: its ASPECT is undone."""
-        view = self._ir.scene.view
-        if view.aspect == 1:
-            return self
-        scene = self._ir.scene._replace(view=view._replace(aspect=1.0))
-        return Unprepared(SceneIR(scene, self._ir.tables, self._ir.source))
+        ir = with_square_pixels(self._ir)
+        return self if ir is self._ir else Unprepared(ir)
 
     def prepared(self, wanted: Callable[[], bool]) -> Prepared | None:
         """The scene in the kernel; None if it is not wanted any more. Raises SceneError."""

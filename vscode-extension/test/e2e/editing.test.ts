@@ -223,8 +223,8 @@ step("the picture follows the text, and says when it does not", async () => {
   const number = workbench.editor(SCENE).locator(".line-numbers.active-line-number");
   await number.filter({ hasText: new RegExp(`^${line}$`) }).waitFor();
   await workbench.focus(SCENE);
-  await workbench.page.keyboard.press("Control+z");
-  await badge.waitFor({ state: "hidden" });
+  await workbench.command("File: Revert File");
+  await badge.waitFor({ state: "detached" });
   await workbench.pictureIsDone();
 });
 

@@ -15,7 +15,7 @@ CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
-.PHONY: programs tools modules viewer
+.PHONY: needs programs tools modules viewer
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
@@ -23,6 +23,7 @@ help: ## Show this list
 
 demo: programs ## Render the merman scene with straight and with bent rays into out/
 	@mkdir -p $(OUT)
+	@echo "Compiling and rendering examples/merman.m3d ..."
 	$(BIN)/m3dc -o $(OUT)/merman.m3ir examples/merman.m3d
 	$(BIN)/m3d-render $(OUT)/merman.m3ir --straight -o $(OUT)/merman-straight.png
 	$(BIN)/m3d-render $(OUT)/merman.m3ir -o $(OUT)/merman-mirage.png
@@ -64,6 +65,7 @@ format: tools ## Lay out the Python and Rust code
 	cargo fmt --manifest-path renderer/Cargo.toml
 
 viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
+	@echo "Bringing pyvista (700 MB) ..."
 	@$(UV) sync --quiet --inexact --group view
 
 generate: tools ## Write everything that is made of something else: of grammar/language.toml, the IR, the version
@@ -91,16 +93,22 @@ vsix: modules ## Pack the VS Code extension into out/
 
 # --- what the commands above need ------------------------------------------------------------------------------------
 
-$(UV):
+needs:
+	@PYTHON="$(PYTHON)" sh tools/needs.sh
+
+$(UV): | needs
+	@echo "Building the programs into $(VENV): some minutes the first time."
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check uv
 
-# uv builds a part anew when its sources have changed, and does nothing otherwise.
-programs: $(UV)
-	@$(UV) sync --quiet --inexact --no-dev
+# uv builds a part anew when its sources have changed, and does nothing otherwise. The first time it shows what it does.
+QUIET = $$(test -x $(BIN)/m3dc && echo --quiet)
 
-tools: $(UV)
-	@$(UV) sync --quiet --inexact
+programs: needs $(UV)
+	@$(UV) sync $(QUIET) --inexact --no-dev
+
+tools: needs $(UV)
+	@$(UV) sync $(QUIET) --inexact
 
 # npm leaves this file. It is not `npm ci`, which refuses where the lock file lacks a package for another platform.
 modules: $(EXTENSION)/node_modules/.package-lock.json

@@ -61,23 +61,47 @@ def test_python_runs(block: tuple[str, str], folder: Path) -> None:
 
 
 def commands() -> list[str]:
-    lines = [line.split("#")[0].strip() for _, text in blocks("") for line in text.splitlines()]
+    pages = [block for block in blocks("") if not block[0].startswith("README")]
+    lines = [line.split("#")[0].strip() for _, text in pages for line in text.splitlines()]
     return [line for line in lines if line.split(" ")[0] in COMMANDS or line.startswith(EXAMPLE_SCRIPT)]
+
+
+def run(line: str, folder: Path) -> None:
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["bash", "-c", line],
+        cwd=folder,
+        env={**os.environ, "PATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, f"{line}\n{done.stderr}"
 
 
 def test_commands_run(folder: Path) -> None:
     assert commands()
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     for line in commands():
-        done = subprocess.run(
-            ["bash", "-c", line],
-            cwd=folder,
-            env={**os.environ, "PATH": path},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert done.returncode == 0, f"{line}\n{done.stderr}"
+        run(line, folder)
+
+
+def test_the_readmes_commands_run_in_order_and_write_into_out(folder: Path) -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    fences = FENCE.findall(readme)
+    (folder / "first.m3d").write_text(next(text for name, text in fences if name == "m3d"))
+
+    def outside() -> set[Path]:
+        return {path for path in folder.rglob("*") if path.is_file() and path.parent != folder / "out"}
+
+    before = outside()
+    lines = [line.split("#")[0].strip() for name, text in fences if not name for line in text.splitlines()]
+    ran: set[str] = set()
+    for line in lines:
+        if (word := line.split(" ")[0]) in COMMANDS:
+            run(line, folder)
+            assert outside() == before, line
+            ran.add(word)
+    assert ran == COMMANDS
 
 
 def test_the_readmes_error_is_what_is_printed() -> None:

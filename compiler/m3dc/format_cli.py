@@ -9,50 +9,52 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
-from .artefact import replacing
+from m3dc_command import USAGE_ERROR, CommandError, ended, parser, read, reason, say, write_output
+
+from .artefact import write_file
 from .format import FormatError, edits, format
 from .format_diff import unified_diff
 from .source import Source
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit status."""
-    options = _parser().parse_args(arguments)
-    try:
-        status = max([_one(name, options) for name in options.scenes])
-        sys.stdout.flush()
-    except OSError as error:
-        # Nothing else can be written there, not even when Python ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 2 if isinstance(error, BrokenPipeError) else _fail(f"cannot write the output: {error.strerror or error}")
-    except KeyboardInterrupt:
-        return 130
-    return status
+    return ended("m3dfmt", lambda: _run(_parser().parse_args(arguments)))
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="m3dfmt",
+    made = parser(
+        "m3dfmt",
+        "m3dc",
         usage="m3dfmt [--check | --diff] SCENE.m3d ...",
         description="Put Mirage3D scenes into their canonical layout. Only white space changes, never a comment, a"
         " number or what the scene means. A scene with syntax errors is left alone.",
         epilog="Exit status: 0 fine, 1 a scene has syntax errors or, with --check or --diff, is not laid out,"
-        " 2 usage or files.",
+        " 2 usage or files, 130 interrupted.",
     )
-    parser.add_argument("scenes", nargs="+", metavar="SCENE.m3d", help="a scene; - is standard input to output")
-    how = parser.add_mutually_exclusive_group()
+    made.add_argument("scenes", nargs="+", metavar="SCENE.m3d", help="a scene; - is standard input to output")
+    how = made.add_mutually_exclusive_group()
     how.add_argument("--check", action="store_true", help="write nothing; list the scenes that would change")
     how.add_argument("--diff", action="store_true", help="write nothing; show what would change as a unified diff")
-    return parser
+    return made
+
+
+def _run(options: argparse.Namespace) -> int:
+    status = 0
+    for name in options.scenes:
+        try:
+            status = max(status, _one(name, options))
+        except CommandError as error:
+            say(f"m3dfmt: error: {error}")
+            status = max(status, error.status)
+    return status
 
 
 def _one(name: str, options: argparse.Namespace) -> int:
-    try:
-        data = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
-    except (OSError, ValueError) as error:
-        return _fail(f"cannot read {name}: {getattr(error, 'strerror', None) or error}")
+    data = read(name)
     try:
         if options.diff:
             return _show_difference(data, name)
@@ -62,12 +64,12 @@ def _one(name: str, options: argparse.Namespace) -> int:
         return 1
     if options.check:
         if laid_out != data:
-            sys.stdout.buffer.write(os.fsencode(name) + b"\n")
+            write_output(os.fsencode(name) + b"\n")
         return int(laid_out != data)
     if name == "-":
-        sys.stdout.buffer.write(laid_out)
+        write_output(laid_out)
     elif laid_out != data:
-        return _replace(Path(name), laid_out)
+        _replace(Path(name), laid_out)
     return 0
 
 
@@ -79,15 +81,8 @@ def _show_difference(data: bytes, name: str) -> int:
     return differs
 
 
-def _replace(path: Path, text: bytes) -> int:
+def _replace(path: Path, text: bytes) -> None:
     try:
-        with replacing(path) as (temporary,):
-            temporary.write_bytes(text)
+        write_file(path, text)
     except OSError as error:
-        return _fail(f"cannot write {path}: {error.strerror or error}; nothing was changed")
-    return 0
-
-
-def _fail(message: str) -> int:
-    print(f"m3dfmt: {message}", file=sys.stderr)
-    return 2
+        raise CommandError(USAGE_ERROR, f"cannot write {path}: {reason(error)}; nothing was changed") from None

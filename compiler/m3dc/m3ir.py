@@ -39,6 +39,12 @@ class FormatError(ValueError):
 
 def write(scene: ir.SceneIR, path: Path) -> None:
     """Write a scene to a file. A failed write leaves the old file. Raises OSError."""
+    with replacing(path) as (file,):
+        write_to(scene, file)
+
+
+def write_to(scene: ir.SceneIR, file: BinaryIO) -> None:
+    """Write a scene to an open file."""
     header = {
         "format": "m3ir",
         "version": VERSION,
@@ -49,8 +55,7 @@ def write(scene: ir.SceneIR, path: Path) -> None:
         f"{table}.{column}": values for table, columns in scene.tables.items() for column, values in columns.items()
     }
     text = np.frombuffer(json.dumps(header, allow_nan=False).encode(), np.uint8)
-    with replacing(path) as (temporary,), temporary.open("wb") as file:
-        np.savez(file, allow_pickle=False, header=text, **arrays)
+    np.savez(file, allow_pickle=False, header=text, **arrays)
 
 
 def read(path: Path) -> ir.SceneIR:

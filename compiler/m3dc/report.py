@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Iterator, Sequence
 from typing import IO, Any
 
 from .catalogue import CATALOGUE
@@ -93,8 +94,30 @@ def print_echo(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str])
             print(f"{' ' * (7 + column)}^ {diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}", file=file)
 
 
-def print_json(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str]) -> None:
+def summary_of_scenes(found: Sequence[Sequence[Diagnostic]], unread: int = 0) -> str:
+    """Such as `3 scenes: 1 with errors, 1 with warnings, 1 fine`; each of `found` is what was found in one scene."""
+    severities = [{diagnostic.severity for diagnostic in diagnostics} for diagnostics in found]
+    wrong = sum("error" in these for these in severities)
+    warned = sum("error" not in these and bool(these) for these in severities)
+    counts = (
+        (wrong, "with errors"),
+        (warned, "with warnings"),
+        (len(found) - wrong - warned, "fine"),
+        (unread, "not read"),
+    )
+    return f"{len(found) + unread} scenes: {', '.join(f'{n} {word}' for n, word in counts if n)}"
+
+
+Found = Sequence[tuple[Sequence[Diagnostic], Source]]
+"""What was found in each of several scenes."""
+
+
+def json_lines(found: Found) -> str:
     """One JSON object a line; lines and columns from 1, in characters; `end` is just after the last character."""
+    return "".join(line for diagnostics, source in found for line in _json_lines(diagnostics, source))
+
+
+def _json_lines(diagnostics: Sequence[Diagnostic], source: Source) -> Iterator[str]:
     for diagnostic in diagnostics:
         record: dict[str, Any] = {
             "file": source.name,
@@ -113,7 +136,12 @@ def print_json(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str])
                 "certain": fix.certain,
                 **_place(fix.span, source),
             }
-        print(json.dumps(record, ensure_ascii=False), file=file)
+        yield valid(json.dumps(record, ensure_ascii=False)) + "\n"
+
+
+def valid(text: str) -> str:
+    """The text with U+FFFD for what UTF-8 has no form for: the bytes of a file's name that are no UTF-8."""
+    return re.sub("[\ud800-\udfff]", "\ufffd", text)
 
 
 def _place(span: tuple[int, int], source: Source) -> dict[str, int]:
@@ -128,9 +156,9 @@ def _place(span: tuple[int, int], source: Source) -> dict[str, int]:
     }
 
 
-def print_sarif(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str]) -> None:
-    """One SARIF 2.1.0 log, as code scanning services read it."""
-    codes = sorted({diagnostic.code for diagnostic in diagnostics})
+def sarif(found: Found) -> str:
+    """One SARIF 2.1.0 log of all scenes, as code scanning services read it."""
+    codes = sorted({diagnostic.code for diagnostics, _ in found for diagnostic in diagnostics})
     rules = [
         {"id": code, "fullDescription": {"text": CATALOGUE[code].says}, "help": {"text": CATALOGUE[code].says}}
         for code in codes
@@ -142,12 +170,19 @@ def print_sarif(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str]
             {
                 "tool": {"driver": {"name": "m3dc", "rules": rules}},
                 "columnKind": "unicodeCodePoints",
-                "results": [_sarif_result(diagnostic, source, codes) for diagnostic in diagnostics],
+                "results": [
+                    _sarif_result(diagnostic, source, codes)
+                    for diagnostics, source in found
+                    for diagnostic in diagnostics
+                ],
             }
         ],
     }
-    json.dump(log, file, ensure_ascii=False, indent=2)
-    print(file=file)
+    return valid(json.dumps(log, ensure_ascii=False, indent=2)) + "\n"
+
+
+FOR_PROGRAMS: dict[str, Callable[[Found], str]] = {"json": json_lines, "sarif": sarif}
+"""What is written for programs, by the name of its format."""
 
 
 def _sarif_result(diagnostic: Diagnostic, source: Source, codes: list[str]) -> dict[str, Any]:
@@ -168,7 +203,7 @@ def _sarif_related(related: Related, source: Source) -> dict[str, Any]:
 def _sarif_place(span: tuple[int, int], source: Source) -> dict[str, Any]:
     start, end = source.position(span[0]), source.position(span[1])
     return {
-        "artifactLocation": {"uri": source.name},
+        "artifactLocation": {"uri": uri_reference(source.name)},
         "region": {
             "startLine": start.line,
             "startColumn": start.column,
@@ -178,6 +213,21 @@ def _sarif_place(span: tuple[int, int], source: Source) -> dict[str, Any]:
             "byteLength": span[1] - span[0],
         },
     }
+
+
+def uri_reference(name: str) -> str:
+    """A file's name as a URI reference: relative to the working directory where the file is in it, as code scanning
+    wants it, else absolute."""
+    from pathlib import Path
+    from urllib.parse import quote
+
+    path = Path(name)
+    if path.is_absolute():
+        here = Path.cwd()
+        if not path.is_relative_to(here):
+            return path.as_uri()
+        path = path.relative_to(here)
+    return quote(os.fsencode(path.as_posix()))
 
 
 def explain(code: str) -> str | None:

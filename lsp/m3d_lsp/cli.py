@@ -7,8 +7,10 @@ import logging
 import os
 import sys
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import NoReturn
+
+from m3dc_command import EXIT_STATUS, ended
+from m3dc_command import parser as command_parser
 
 # How long one thread may keep the others waiting: what is long work to the server is a blink to a person.
 SWITCH_INTERVAL_S = 0.001
@@ -17,12 +19,24 @@ SWITCH_INTERVAL_S = 0.001
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the server until its client leaves. Returns the exit status: 0 where the client shut it down first, as LSP
     wants it."""
-    parser = argparse.ArgumentParser(prog="m3d-lsp", description="Language server for Mirage3D scenes.")
+    return ended("m3d-lsp", lambda: _run(_parser(), arguments))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = command_parser(
+        "m3d-lsp",
+        "m3d-lsp",
+        description="Language server for Mirage3D scenes.",
+        epilog=f"{EXIT_STATUS}.",
+    )
     parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (the default)")
     parser.add_argument("--tcp", metavar="[HOST:]PORT", help="listen on a port instead, for one client")
     parser.add_argument("--log-file", metavar="FILE", help="append what happens to a file")
     parser.add_argument("--log-level", choices=["debug", "info", "warning", "error"], default="info")
-    parser.add_argument("--version", action="version", version=f"m3d-lsp {version('m3d-lsp')}")
+    return parser
+
+
+def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> int:
     options = parser.parse_args(arguments)
     if options.stdio and options.tcp:
         parser.error("--stdio and --tcp exclude each other")

@@ -10,18 +10,18 @@ import json
 import sys
 import time
 from collections.abc import Sequence
-from pathlib import Path
 
-from m3d_render import command, wireframe_cli
-from m3d_render.command import FINE, INTERRUPTED, SCENE_ERROR, USAGE_ERROR, CommandError
-from m3d_render.interrupt import Interrupt
+from m3d_render import command, destination, wireframe_cli
+from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.destination import Destination
 from m3d_render.metadata import metadata
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES
-from m3d_render.picture import SUFFIXES, PictureError, check_suffix, plane_paths, write_picture
+from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
 from m3dc import compile as compile_scene
 from m3dc import report
+from m3dc.interrupt import Interrupt
 from m3dc.ir import SceneIR
 
 WRONG_NORMALS = "M3D0511"
@@ -30,14 +30,20 @@ WRONG_NORMALS = "M3D0511"
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
+    return command.ended("m3d-render", lambda: _main(arguments))
+
+
+def _main(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.check_normals:
-        return command.ended(parser.prog, lambda: _check_normals(options.scene))
+        return _check_normals(options.scene)
     if options.output is None:
-        parser.error("where should the picture go? Give -o PICTURE")
+        parser.error("where should the picture go? Give -o PICTURE, or -o - for standard output")
     wireframe_cli.check_options(parser, options)
-    return command.ended(parser.prog, lambda: wireframe_cli.run(options) if options.wireframe else _run(options))
+    if options.wireframe:
+        return wireframe_cli.run(options)
+    return _run(options)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -49,13 +55,7 @@ def _parser() -> argparse.ArgumentParser:
         interrupted="the finished rows are written",
     )
     command.add_scene(parser)
-    parser.add_argument(
-        "-o",
-        dest="output",
-        metavar="PICTURE",
-        type=Path,
-        help=f"where to write the picture; its suffix names the format: {', '.join(SUFFIXES)}",
-    )
+    destination.add_options(parser, SUFFIXES, ", and .svg for a wireframe")
     parser.add_argument(
         "--check-normals",
         action="store_true",
@@ -149,17 +149,20 @@ def _check_normals(scene: str) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    output: Path = options.output
-    _check_output(output, options.aov)
+    to = destination.destination(options, SUFFIXES)
+    if options.aov and to.suffix != ".exr":
+        raise CommandError(USAGE_ERROR, f"{to.name}: only an .exr can hold what --aov asks for")
+    if options.stats and to.path is None:
+        raise CommandError(USAGE_ERROR, "--stats and the picture can not both go to standard output; give -o PICTURE")
     started = time.perf_counter()
     ir = command.load(options.scene)
     load = time.perf_counter() - started
-    rendering, whole = _render(ir, options)
+    rendering, interrupted = _render(ir, options)
     started = time.perf_counter()
     if rendering.picture.size:
-        _write(output, ir, rendering, options)
-    if not whole:
-        raise CommandError(INTERRUPTED, _interrupted(output, rendering))
+        _write(to, ir, rendering, options)
+    if interrupted:
+        raise CommandError(128 + interrupted, _interrupted(to, rendering))
     if options.stats:
         seconds = {
             "load": load,
@@ -171,12 +174,13 @@ def _run(options: argparse.Namespace) -> int:
     return FINE
 
 
-def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, bool]:
-    """What was rendered, and whether it is all that was asked for."""
+def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, int]:
+    """What was rendered, and the signal that ended it before it was all that was asked for, or 0."""
     progress = ProgressLine(sys.stderr) if sys.stderr.isatty() else None
+    interrupt = Interrupt()
     try:
         scene = prepare(ir)
-        with Interrupt() as interrupt:
+        with interrupt:
             rendering = scene.render(
                 width=options.width,
                 height=options.height,
@@ -194,9 +198,9 @@ def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, bool]:
                 progress=progress,
                 cancel=interrupt.asked,
             )
-        return rendering, True
+        return rendering, 0
     except Cancelled as cancelled:
-        return cancelled.rendering, False
+        return cancelled.rendering, interrupt.number
     except SceneError as error:
         asked = options.region is not None or options.rows is not None
         status = USAGE_ERROR if asked and "lie" in str(error) else SCENE_ERROR
@@ -206,44 +210,28 @@ def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, bool]:
             progress.clear()
 
 
-def _write(output: Path, ir: SceneIR, rendering: Rendering, options: argparse.Namespace) -> None:
+def _write(to: Destination, ir: SceneIR, rendering: Rendering, options: argparse.Namespace) -> None:
     described = metadata(ir, rendering, command.name(options.scene))
     origin = (rendering.region.left, rendering.region.top)
+    whole = (rendering.width, rendering.height)
+    picture, layers = rendering.picture, rendering.layers
     try:
-        write_picture(
-            output,
-            rendering.picture,
-            described,
-            layers=rendering.layers,
-            origin=origin,
-            whole=(rendering.width, rendering.height),
-        )
+        if to.path is None:
+            command.write_output(encoded(to.suffix, picture, described, layers=layers, origin=origin, whole=whole))
+        else:
+            write_picture(to.path, picture, described, layers=layers, origin=origin, whole=whole, suffix=to.suffix)
     except PictureError as error:
         raise CommandError(USAGE_ERROR, str(error)) from None
 
 
-def _interrupted(output: Path, rendering: Rendering) -> str:
+def _interrupted(to: Destination, rendering: Rendering) -> str:
     part = rendering.region
     if not rendering.picture.size:
         return "interrupted: no row was finished, and no picture written"
     return (
-        f"interrupted: {output} holds rows {part.top} to {part.bottom}; "
+        f"interrupted: {to.name} holds rows {part.top} to {part.bottom}; "
         f"rows from {part.bottom + 1} on are not rendered (--rows, --region)"
     )
-
-
-def _check_output(output: Path, layers: Sequence[str]) -> None:
-    """Finds out before the work begins what would spoil its end."""
-    try:
-        check_suffix(output)
-    except PictureError as error:
-        raise CommandError(USAGE_ERROR, str(error)) from None
-    if layers and output.suffix.lower() != ".exr":
-        raise CommandError(USAGE_ERROR, f"{output}: only an .exr can hold what --aov asks for")
-    command.check_folder(output)
-    for path in plane_paths(output) if output.suffix.lower() == ".raw" else [output]:
-        if path.is_dir():
-            raise CommandError(USAGE_ERROR, f"{path}: a folder of this name is in the way of the picture")
 
 
 def _stats(rendering: Rendering, seconds: dict[str, float]) -> dict[str, object]:

@@ -1,6 +1,6 @@
-"""What the command lines share: how a scene is read, numbers understood, and a command ended.
+"""What the command lines of this package share: their options, how a scene is read and numbers are understood.
 
-Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
+How a command ends is in `m3dc_command`, for all commands alike.
 """
 
 from __future__ import annotations
@@ -13,26 +13,57 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
-from m3d_render import _kernel
+from m3dc_command import (
+    EXIT_STATUS,
+    FINE,
+    SCENE_ERROR,
+    USAGE_ERROR,
+    CommandError,
+    Parser,
+    check_outputs,
+    ended,
+    read,
+    reason,
+    say,
+    write_output,
+)
+from m3dc_command import parser as _parser
+
 from m3dc import Result, m3ir, report
 from m3dc import compile as compile_scene
 from m3dc.ir import SceneIR
 from m3dc.levels import Levels
 
-FINE, SCENE_ERROR, USAGE_ERROR, INTERRUPTED = 0, 1, 2, 130
+__all__ = [
+    "DISTRIBUTION",
+    "FINE",
+    "SCENE_ERROR",
+    "USAGE_ERROR",
+    "CommandError",
+    "add_scene",
+    "check_folder",
+    "check_outputs",
+    "compiled",
+    "ended",
+    "load",
+    "name",
+    "number",
+    "numbers",
+    "parser",
+    "read",
+    "reason",
+    "say",
+    "whole",
+    "write_output",
+]
+
+DISTRIBUTION = "m3d-render"
 
 
-_EXIT_STATUS = "Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted"
-
-
-def parser(
-    program: str, description: str, *, usage: str | None = None, interrupted: str = ""
-) -> argparse.ArgumentParser:
+def parser(program: str, description: str, *, usage: str | None = None, interrupted: str = "") -> Parser:
     """A command's options, as far as all commands have them; `interrupted` says what an interruption leaves."""
-    epilog = f"{_EXIT_STATUS}{interrupted and f': {interrupted}'}."
-    made = argparse.ArgumentParser(prog=program, usage=usage, description=description, epilog=epilog)
-    made.add_argument("--version", action="version", version=f"{program} {_kernel.VERSION}")
-    return made
+    epilog = f"{EXIT_STATUS}{interrupted and f': {interrupted}'}."
+    return _parser(program, DISTRIBUTION, usage=usage, description=description, epilog=epilog)
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
@@ -40,46 +71,13 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
 
 
-class CommandError(Exception):
-    """Ends the command with a status and, unless it has been said already, a message."""
-
-    def __init__(self, status: int, message: str = "") -> None:
-        super().__init__(message)
-        self.status = status
-
-
-def ended(program: str, action: Callable[[], int]) -> int:
-    """The exit status of a command, its failures explained."""
-
-    def say(message: str) -> None:
-        print(f"{program}: {message}", file=sys.stderr)
-
-    try:
-        return action()
-    except CommandError as failure:
-        if str(failure):
-            say(str(failure) if failure.status == INTERRUPTED else f"error: {failure}")
-        return failure.status
-    except KeyboardInterrupt:
-        say("interrupted: nothing was written")
-        return INTERRUPTED
-    except MemoryError:
-        say("error: this does not fit in memory; a picture of a smaller --width and --height may")
-        return USAGE_ERROR
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return USAGE_ERROR
-
-
 def load(scene: str) -> SceneIR:
-    """The IR of a scene file, or of a compiled one; what is wrong with it goes to standard error."""
+    """The IR of a scene file, or of a compiled one; the errors in it go to standard error. Raises CommandError."""
     if scene.lower().endswith(".m3ir"):
         try:
             return m3ir.read(Path(scene))
-        except OSError as error:
-            raise CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
-        except m3ir.FormatError as error:
-            raise CommandError(USAGE_ERROR, f"{scene}: {error}") from None
+        except (OSError, m3ir.FormatError) as error:
+            raise CommandError(USAGE_ERROR, f"{scene}: {reason(error)}") from None
     result = compiled(scene, sys.stderr)
     if not result.ok:
         raise CommandError(SCENE_ERROR)
@@ -87,28 +85,26 @@ def load(scene: str) -> SceneIR:
 
 
 def compiled(scene: str, to: TextIO) -> Result:
-    """What comes of a scene file, or of standard input; what is wrong with it is written. Raises CommandError where
-    there is nothing to read."""
+    """What comes of a scene file, or of standard input; the errors in it are written. Its warnings are not: they are
+    what `m3dc` is asked for. Raises CommandError where there is nothing to read."""
     result = compile_scene(read(scene), scene)
-    report.print_human(Levels().apply(result.diagnostics), result.source, to)
+    shown = Levels().apply(result.diagnostics)
+    report.print_human([found for found in shown if found.severity == "error"], result.source, to)
     return result
-
-
-def read(scene: str) -> bytes:
-    """The text of a scene file; of standard input if it is called -."""
-    try:
-        return sys.stdin.buffer.read() if scene == "-" else Path(scene).read_bytes()
-    except OSError as error:
-        raise CommandError(USAGE_ERROR, f"{scene}: {error.strerror or error}") from None
 
 
 def name(scene: str) -> str:
     """What to call a scene file."""
-    return "standard input" if scene == "-" else Path(scene).name
+    return "standard input" if scene == "-" else report.valid(Path(scene).name)
 
 
 def check_folder(output: Path) -> None:
     """Finds out before the work begins whether a file can be written at all."""
+    try:
+        if output.is_dir():
+            raise CommandError(USAGE_ERROR, f"{output}: a folder of this name is in the way")
+    except OSError as error:
+        raise CommandError(USAGE_ERROR, f"{output}: {reason(error)}") from None
     folder = output.parent
     if not folder.is_dir():
         what = "is not a folder" if folder.exists() else "does not exist"

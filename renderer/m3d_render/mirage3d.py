@@ -1,7 +1,7 @@
 """The command line of 1993: `mirage3d datafile -w640 -h400 -S ...`. Thesis 7.2 and 7.3.
 
 A thin layer on the same compiler and renderer: options in any order, no space before a value, and the messages of
-Appendix B. Exit status: 0 fine, 1 the scene has errors, 2 usage or files.
+Appendix B. Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -14,19 +14,24 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from m3dc_command import Terminated, now, say, version_line
 from numpy.typing import NDArray
 
 import m3dc
-from m3d_render import wireframe
+from m3d_render import command, wireframe
+from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR
 from m3d_render.picture import to_bytes
-from m3d_render.rendering import SceneError, prepare
+from m3d_render.rendering import Cancelled, SceneError, prepare
 from m3dc import report
-from m3dc.artefact import replacing
+from m3dc.artefact import replacing, write_file
 from m3dc.dump import dump
+from m3dc.interrupt import Interrupt
 from m3dc.levels import Levels
 
 LISTING = """\
 usage: mirage3d datafile [-command ...]
+
+Render a scene to three files, one a colour: a byte a pixel, row by row from the top.
 
   -r"filename"  Red output image file (red.raw)
   -g"filename"  Green output image file (green.raw)
@@ -44,9 +49,12 @@ usage: mirage3d datafile [-command ...]
   -S            Enable shadow detection (No)
   -N            Check the orientation of polygon normals (No)
   -W            Wireframe display (No)
+  --help        Show this list
+  --version     Show the program's version
 
 There is no space between a command and its value. Commands take precedence over the data file.
 m3dc and m3d-render do all of this and more.
+Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
 """
 
 LARGEST = 1024
@@ -168,25 +176,28 @@ def parse(arguments: Sequence[str]) -> Options:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
-    given = sys.argv[1:] if arguments is None else arguments
-    if not given:
+    return command.ended("mirage3d", lambda: _main(sys.argv[1:] if arguments is None else arguments))
+
+
+def _main(given: Sequence[str]) -> int:
+    if not given or "--help" in given:
         print(LISTING, end="")
-        return 0
+        return FINE
+    if "--version" in given:
+        print(version_line("mirage3d", command.DISTRIBUTION))
+        return FINE
     try:
         return _run(parse(given))
     except UnrecoverableError as error:
-        print(f"Unrecoverable Error: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("mirage3d: interrupted: nothing was written", file=sys.stderr)
-        return 130
+        say(f"Unrecoverable Error: {error}")
+        return USAGE_ERROR
 
 
 def _run(options: Options) -> int:
     assert options.datafile is not None
     try:
         text = Path(options.datafile).read_bytes()
-    except OSError:
+    except (OSError, ValueError):
         raise UnrecoverableError(f"Unable to open input file: {options.datafile}") from None
     result = m3dc.compile(text, options.datafile)
     if options.echo:
@@ -195,17 +206,18 @@ def _run(options: Options) -> int:
     shown = Levels(deny=deny).apply(result.diagnostics)
     _print_errors(shown, result.source)
     if any(diagnostic.severity == "error" for diagnostic in shown):
-        return 1
+        return SCENE_ERROR
     if options.dump is not None:
-        _dump(result, options.dump)
-        return 0
+        _dump(result, options)
+        return FINE
     _check_outputs(options)
     started = time.perf_counter()
     picture = _picture(result.ir, options)
     _write(picture, options)
     rows, columns, _ = picture.shape
     print(f"{columns} x {rows} pixels in {time.perf_counter() - started:.1f} s")
-    return 0
+    print(f"written: {', '.join(map(str, _outputs(options).values()))}")
+    return FINE
 
 
 def _print_errors(diagnostics: Sequence[m3dc.Diagnostic], source: m3dc.Source) -> None:
@@ -219,16 +231,18 @@ def _print_errors(diagnostics: Sequence[m3dc.Diagnostic], source: m3dc.Source) -
         print(f"{kind} {word} : {diagnostic.message}\n", file=sys.stderr)
 
 
-def _dump(result: m3dc.Result, file: str) -> None:
-    text = dump(result.ir, time.ctime())
-    if not file:
-        sys.stdout.write(text)
+def _dump(result: m3dc.Result, options: Options) -> None:
+    assert options.datafile is not None
+    data = report.valid(dump(result.ir, now())).encode()
+    if not options.dump:
+        command.write_output(data)
         return
+    command.check_outputs(options.datafile, [options.dump])
     try:
-        with replacing(Path(file)) as (temporary,):
-            temporary.write_text(text, encoding="utf-8")
+        write_file(Path(options.dump), data)
     except OSError:
-        raise UnrecoverableError(f"Unable to open debug file: {file}") from None
+        raise UnrecoverableError(f"Unable to open debug file: {options.dump}") from None
+    print(f"written: {options.dump}")
 
 
 def _picture(ir: m3dc.SceneIR, options: Options) -> NDArray[np.float32]:
@@ -244,23 +258,36 @@ def _picture(ir: m3dc.SceneIR, options: Options) -> NDArray[np.float32]:
     if options.buffer is not None:
         _check_buffer(Path(options.buffer))
     try:
-        rendering = prepare(ir).render(
-            width=None if whole else width,
-            height=None if whole else height,
-            rows=None if options.start is None and options.end is None else (first, last),
-            shadows=True if options.shadows else None,
-            depth=options.depth,
-            log_scale=options.log_scale,
-            normalize=options.buffer is not None,
-        )
+        return _rendered(ir, options, whole, width, height, (first, last))
     except SceneError as error:
         raise UnrecoverableError(str(error)) from None
+
+
+def _rendered(
+    ir: m3dc.SceneIR, options: Options, whole: bool, width: int, height: int, rows: tuple[int, int]
+) -> NDArray[np.float32]:
+    scene = prepare(ir)
+    interrupt = Interrupt()
+    try:
+        with interrupt:
+            rendering = scene.render(
+                width=None if whole else width,
+                height=None if whole else height,
+                rows=None if options.start is None and options.end is None else rows,
+                shadows=True if options.shadows else None,
+                depth=options.depth,
+                log_scale=options.log_scale,
+                normalize=options.buffer is not None,
+                cancel=interrupt.asked,
+            )
+    except Cancelled:
+        raise Terminated(interrupt.number) from None
     return rendering.picture
 
 
 def _check_buffer(buffer: Path) -> None:
     """The picture is scaled in memory, so the file itself is not needed; but a name that can not be one is refused."""
-    if buffer.is_dir() or not buffer.absolute().parent.is_dir():
+    if not _may_be_written(buffer):
         raise UnrecoverableError(f"Unable to open buffer file: {buffer}")
 
 
@@ -270,16 +297,27 @@ def _outputs(options: Options) -> dict[str, Path]:
 
 def _check_outputs(options: Options) -> None:
     """Refuse files that can not be written before the work is done, not after."""
+    assert options.datafile is not None
     for color, path in _outputs(options).items():
-        if path.is_dir() or not path.absolute().parent.is_dir():
+        if not _may_be_written(path):
             raise UnrecoverableError(f"Unable to open {color} image file for output: {path}")
+    command.check_outputs(options.datafile, _outputs(options).values())
+
+
+def _may_be_written(path: Path) -> bool:
+    try:
+        return not path.is_dir() and path.absolute().parent.is_dir()
+    except OSError:
+        return False
 
 
 def _write(picture: NDArray[np.float32], options: Options) -> None:
     values = to_bytes(picture)
     try:
-        with replacing(*_outputs(options).values()) as temporaries:
-            for channel, temporary in enumerate(temporaries):
-                temporary.write_bytes(np.ascontiguousarray(values[..., channel]).tobytes())
+        with replacing(*_outputs(options).values()) as files:
+            for channel, file in enumerate(files):
+                file.write(np.ascontiguousarray(values[..., channel]).tobytes())
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        raise UnrecoverableError(f"Unable to write the image files: {error.strerror or error}") from None
+        raise UnrecoverableError(f"Unable to write the image files: {command.reason(error)}") from None

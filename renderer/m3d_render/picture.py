@@ -1,8 +1,12 @@
 """Pictures in files: PNG (8 bits), TIFF (16 bits), EXR (32-bit floating point), and the three planar files of the
 1993 program, NAME.red.raw, NAME.green.raw and NAME.blue.raw (8 bits).
 
-A file is written beside its place and then moved there, so that a failed or interrupted write leaves what was
-there before. Values are stored as they are, without gamma.
+Values from 0 to 1 are what a screen is to show: brightness as sRGB encodes it. PNG, TIFF and raw files hold them as
+they are. An EXR holds linear light, because that is what its readers expect: the same brightness. All but raw files
+say which of the two they hold.
+
+A picture is encoded and read back before anything is written, and its file takes its place only once it is whole, so
+that a failed or interrupted write leaves what was there before.
 """
 
 from __future__ import annotations
@@ -10,9 +14,11 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
+import time
+import zlib
 from collections.abc import Generator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +28,12 @@ from m3dc.artefact import replacing
 if TYPE_CHECKING:
     import OpenImageIO
 
-SUFFIXES = (".png", ".tif", ".tiff", ".exr", ".raw")
+Layers = Mapping[str, NDArray[np.floating]]
+
+FORMATS = {".png": "png", ".tif": "tiff", ".tiff": "tiff", ".exr": "openexr"}
+"""What OpenImageIO calls the formats that it writes, by suffix."""
+
+SUFFIXES = (*FORMATS, ".raw")
 """The suffixes that name a format."""
 
 CHANNELS: dict[str, list[str]] = {
@@ -48,37 +59,86 @@ def write_picture(
     picture: NDArray[np.floating],
     metadata: Mapping[str, str] | None = None,
     *,
-    layers: Mapping[str, NDArray[np.floating]] | None = None,
+    layers: Layers | None = None,
     origin: tuple[int, int] = (0, 0),
     whole: tuple[int, int] | None = None,
+    suffix: str | None = None,
 ) -> list[Path]:
-    """Writes a picture (rows x columns x 3, 0..1) in the format of the path's suffix; returns the files written.
+    """Writes a picture (rows x columns x 3, 0..1); returns the files written. `suffix` names the format; it is the
+    path's if not given.
 
     An EXR holds more: extra outputs, `layers`, as channels (see `CHANNELS`), and where in a `whole` picture of so
     many columns and rows this one has its upper left pixel, `origin`, as (column, row).
     """
     target = Path(path)
-    check_suffix(target)
-    suffix = target.suffix.lower()
-    if layers and suffix != ".exr":
-        raise PictureError(f"{target}: only an .exr can hold extra outputs")
+    if suffix is None:
+        check_suffix(target)
+        suffix = target.suffix.lower()
     if suffix == ".raw":
-        return _write_planes(target, picture)
-    with _replacing(target) as (temporary,):
-        if suffix == ".exr":
-            _write_exr(temporary, picture, metadata or {}, layers or {}, origin, whole)
-        else:
-            levels, kind = (255.0, np.uint8) if suffix == ".png" else (65535.0, np.uint16)
-            pixels = np.rint(np.clip(picture, 0.0, 1.0) * levels).astype(kind)
-            _write_image(temporary, pixels, _spec(pixels, metadata or {}))
-    return [target]
+        targets, contents = plane_paths(target), _planes(picture)
+    else:
+        targets = [target]
+        try:
+            contents = [encoded(suffix, picture, metadata, layers=layers, origin=origin, whole=whole)]
+        except PictureError as error:
+            raise PictureError(f"{target}: {error}") from None
+    with _replacing(*targets) as files:
+        for file, content in zip(files, contents, strict=True):
+            file.write(content)
+    return targets
 
 
 def png(picture: NDArray[np.floating]) -> bytes:
     """The bytes of a PNG file of a picture."""
-    with tempfile.TemporaryDirectory() as folder:
-        (file,) = write_picture(Path(folder) / "picture.png", picture)
-        return file.read_bytes()
+    return encoded(".png", picture)
+
+
+def encoded(
+    suffix: str,
+    picture: NDArray[np.floating],
+    metadata: Mapping[str, str] | None = None,
+    *,
+    layers: Layers | None = None,
+    origin: tuple[int, int] = (0, 0),
+    whole: tuple[int, int] | None = None,
+) -> bytes:
+    """The bytes of a picture's file in the format that a suffix of `FORMATS` names. Raises PictureError."""
+    if suffix == ".exr":
+        pixels, spec = _exr(picture, metadata or {}, layers or {}, origin, whole)
+    elif layers:
+        raise PictureError("only an .exr can hold extra outputs")
+    else:
+        levels, kind = (255.0, np.uint8) if suffix == ".png" else (65535.0, np.uint16)
+        pixels = np.rint(np.clip(picture, 0.0, 1.0) * levels).astype(kind)
+        spec = _spec(pixels, metadata or {}, "srgb_rec709_scene")
+    try:
+        with _scratch() as file:
+            name = f"/dev/fd/{file.fileno()}"
+            _write_image(name, FORMATS[suffix], np.ascontiguousarray(pixels), spec)
+            file.seek(0)
+            content = file.read()
+            # Not every writer of OpenImageIO says that there was no room; and the reader of PNG shouts.
+            whole_file = _is_whole_png(content) if suffix == ".png" else True
+            if not (whole_file and _can_be_read(name, pixels, spec)):
+                raise PictureError("the picture could not be encoded: there is no room for it")
+            return content
+    except PictureError:
+        raise
+    except OSError as error:
+        raise PictureError(f"the picture could not be encoded: {error.strerror or error}") from None
+
+
+def _scratch() -> BinaryIO:
+    """A file without a name, in memory where the system has that: nothing is left of it, whatever happens."""
+    if hasattr(os, "memfd_create"):
+        return os.fdopen(os.memfd_create("picture"), "w+b")
+    return tempfile.TemporaryFile()
+
+
+def linear(values: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Linear light from values as sRGB encodes them (IEC 61966-2-1), both 0..1."""
+    exact = np.asarray(values, np.float64)
+    return np.where(exact <= 0.04045, exact / 12.92, ((exact + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
 def check_suffix(target: Path) -> None:
@@ -99,58 +159,61 @@ def to_bytes(picture: NDArray[np.floating]) -> NDArray[np.uint8]:
     return np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 
-def _write_planes(target: Path, picture: NDArray[np.floating]) -> list[Path]:
-    planes = plane_paths(target)
+def _planes(picture: NDArray[np.floating]) -> list[bytes]:
     values = to_bytes(picture)
-    with _replacing(*planes) as temporaries:
-        for channel, temporary in enumerate(temporaries):
-            temporary.write_bytes(np.ascontiguousarray(values[..., channel]).tobytes())
-    return planes
+    return [np.ascontiguousarray(values[..., channel]).tobytes() for channel in range(3)]
 
 
-def _write_exr(
-    temporary: Path,
+def _exr(
     picture: NDArray[np.floating],
     metadata: Mapping[str, str],
-    layers: Mapping[str, NDArray[np.floating]],
+    layers: Layers,
     origin: tuple[int, int],
     whole: tuple[int, int] | None,
-) -> None:
+) -> tuple[NDArray[np.float32], OpenImageIO.ImageSpec]:
     names = ["R", "G", "B"]
-    parts = [picture]
+    parts: list[NDArray[np.floating]] = [linear(picture)]
     for name, values in layers.items():
         names += CHANNELS[name]
         parts.append(values.reshape(*picture.shape[:2], len(CHANNELS[name])))
     pixels = np.concatenate(parts, axis=2, dtype=np.float32, casting="same_kind")
-    spec = _spec(pixels, metadata)
+    spec = _spec(pixels, metadata, "lin_rec709_scene")
     spec.channelnames = tuple(names)
     spec.x, spec.y = origin
     if whole is not None:
         spec.full_width, spec.full_height = whole
-    _write_image(temporary, pixels, spec)
+    return pixels, spec
 
 
-def _spec(pixels: NDArray[Any], metadata: Mapping[str, str]) -> OpenImageIO.ImageSpec:
+def _spec(pixels: NDArray[Any], metadata: Mapping[str, str], color_space: str) -> OpenImageIO.ImageSpec:
     import OpenImageIO
 
     rows, columns, channels = pixels.shape
     kind = {"uint8": "uint8", "uint16": "uint16", "float32": "float"}[pixels.dtype.name]
     spec = OpenImageIO.ImageSpec(columns, rows, channels, kind)
+    spec.attribute("oiio:ColorSpace", color_space)
+    spec.attribute("DateTime", _date())
     for name, value in metadata.items():
         spec.attribute(name, value)
     return spec
 
 
-def _write_image(temporary: Path, pixels: NDArray[Any], spec: OpenImageIO.ImageSpec) -> None:
+def _date() -> str:
+    """SOURCE_DATE_EPOCH as pictures hold a time. Without it they hold none: the same picture is the same file."""
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
+    return time.strftime("%Y:%m:%d %H:%M:%S", time.gmtime(int(epoch))) if epoch.isdecimal() else ""
+
+
+def _write_image(name: str, kind: str, pixels: NDArray[Any], spec: OpenImageIO.ImageSpec) -> None:
     import OpenImageIO
 
-    output = OpenImageIO.ImageOutput.create(str(temporary))
+    output = OpenImageIO.ImageOutput.create(kind)
     if not output:
-        raise PictureError(f"no writer for {temporary.suffix}: {OpenImageIO.geterror()}")
+        raise PictureError(f"no writer for {kind}: {OpenImageIO.geterror()}")
     try:
         # The stub leaves one of its overloads open.
-        opened = output.open(str(temporary), spec)  # pyright: ignore[reportUnknownMemberType]
-        written = opened and output.write_image(np.ascontiguousarray(pixels))
+        opened = output.open(name, spec)  # pyright: ignore[reportUnknownMemberType]
+        written = opened and output.write_image(pixels)
         reason = output.geterror()
     finally:
         closed = output.close()
@@ -158,13 +221,45 @@ def _write_image(temporary: Path, pixels: NDArray[Any], spec: OpenImageIO.ImageS
         raise PictureError(f"the picture could not be written: {reason or output.geterror()}")
 
 
+def _is_whole_png(content: bytes) -> bool:
+    """Whether all chunks are there, each with its checksum, up to the last."""
+    place, kind = 8, b""
+    while kind != b"IEND":
+        length = int.from_bytes(content[place : place + 4], "big")
+        body = content[place + 4 : place + 8 + length]
+        kind = body[:4]
+        place += length + 12
+        if len(body) != length + 4 or zlib.crc32(body) != int.from_bytes(content[place - 4 : place], "big"):
+            return False
+    return place == len(content)
+
+
+def _can_be_read(name: str, pixels: NDArray[Any], spec: OpenImageIO.ImageSpec) -> bool:
+    """Whether what was written is the picture."""
+    import OpenImageIO
+
+    source: Any = OpenImageIO.ImageInput.open(name)
+    if not source:
+        OpenImageIO.geterror()
+        return False
+    found = source.read_image(0, 0, 0, spec.nchannels, "unknown")
+    source.geterror()  # else it would be printed in the end
+    names: list[str] = list(source.spec().channelnames)
+    wanted: list[str] = list(spec.channelnames)  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
+    source.close()
+    if found is None or sorted(names) != sorted(wanted):
+        return False
+    order = [names.index(channel) for channel in wanted]
+    return np.array_equal(found[..., order], pixels, equal_nan=pixels.dtype.kind == "f")
+
+
 @contextlib.contextmanager
-def _replacing(*targets: Path) -> Generator[list[Path]]:
+def _replacing(*targets: Path) -> Generator[list[BinaryIO]]:
     """`replacing`, whose failures name the picture."""
     try:
-        with replacing(*targets) as temporaries:
-            yield temporaries
-    except PictureError:
+        with replacing(*targets) as files:
+            yield files
+    except BrokenPipeError:
         raise
     except OSError as error:
         raise PictureError(f"{targets[0]}: {error.strerror or error}") from None

@@ -20,7 +20,7 @@ from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.optics import trace_crossings, trace_paths
 from m3d_render.ray_options import angles, distances
 from m3d_render.rendering import SceneError
-from m3dc.artefact import replacing
+from m3dc.artefact import replacing, text_of
 from m3dc.ir import SceneIR
 
 HEADING = "angle_arcmin,r_m,z_m,end"
@@ -29,9 +29,7 @@ _BATCH = 1024
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
-    parser = _parser()
-    options = parser.parse_args(arguments)
-    return command.ended(parser.prog, lambda: _run(options))
+    return command.ended("m3d-rays", lambda: _run(_parser().parse_args(arguments)))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -47,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
         required=True,
         type=angles,
         metavar="FROM:TO:STEP",
-        help="angles above the horizontal, in arcminutes; write --angles=FROM... if it is below 0",
+        help="angles above the horizontal, in arcminutes",
     )
     parser.add_argument(
         "--at", type=distances, metavar="R1,R2,...", help="horizontal distances, m, instead of every crossing"
@@ -59,6 +57,7 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     to_screen = options.csv == "-"
     if not to_screen:
+        command.check_outputs(options.scene, [options.csv])
         command.check_folder(Path(options.csv))
     ir = command.load(options.scene)
     if ir.scene.mirage is None:
@@ -68,14 +67,14 @@ def _run(options: argparse.Namespace) -> int:
         if to_screen:
             _print(lines, sys.stdout)
         else:
-            with replacing(Path(options.csv)) as (temporary,), temporary.open("w", encoding="utf-8") as file:
+            with replacing(Path(options.csv)) as (binary,), text_of(binary) as file:
                 _print(lines, file)
     except SceneError as error:
         raise CommandError(SCENE_ERROR, f"{options.scene}: {error}") from None
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise CommandError(USAGE_ERROR, f"{options.csv}: {error.strerror or error}") from None
+        raise CommandError(USAGE_ERROR, f"{options.csv}: {command.reason(error)}") from None
     return FINE
 
 

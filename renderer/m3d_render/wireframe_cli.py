@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
-from m3d_render import _kernel, command
+from m3d_render import _kernel, command, destination
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
-from m3d_render.picture import SUFFIXES, PictureError, check_suffix, write_picture
+from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.rendering import SceneError
 from m3d_render.wireframe.drawing import HIDDEN, project
 from m3d_render.wireframe.marks import MARKS
 from m3d_render.wireframe.raster import PAPERS, raster
 from m3d_render.wireframe.svg import svg
-from m3dc.artefact import replacing
+from m3dc import report
+from m3dc.artefact import write_file
 
 WITHOUT_EFFECT = (
     *("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples"),
@@ -68,15 +68,7 @@ def check_options(parser: argparse.ArgumentParser, options: argparse.Namespace) 
 
 def run(options: argparse.Namespace) -> int:
     """Draws the wireframe that the options ask for."""
-    output: Path = options.output
-    vectors = output.suffix.lower() == ".svg"
-    if not vectors:
-        try:
-            check_suffix(output)
-        except PictureError:
-            known = ", ".join((".svg", *SUFFIXES))
-            raise CommandError(USAGE_ERROR, f"{output}: one of {known} must name the wireframe's format") from None
-    command.check_folder(output)
+    to = destination.destination(options, (".svg", *SUFFIXES), "wireframe")
     ir = command.load(options.scene)
     try:
         drawing = project(
@@ -89,13 +81,21 @@ def run(options: argparse.Namespace) -> int:
         "ImageDescription": f"{command.name(options.scene)}; wireframe{' from above' if options.from_above else ''}",
     }
     try:
-        if vectors:
-            with replacing(output) as (temporary,):
-                temporary.write_text(svg(drawing, options.paper), encoding="utf-8")
+        if to.path is not None and to.suffix != ".svg":
+            write_picture(to.path, raster(drawing, options.paper), described, suffix=to.suffix)
+            return FINE
+        if to.suffix == ".svg":
+            content = report.valid(svg(drawing, options.paper)).encode()
         else:
-            write_picture(output, raster(drawing, options.paper), described)
+            content = encoded(to.suffix, raster(drawing, options.paper), described)
+        if to.path is None:
+            command.write_output(content)
+        else:
+            write_file(to.path, content)
     except PictureError as error:
         raise CommandError(USAGE_ERROR, str(error)) from None
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        raise CommandError(USAGE_ERROR, f"{output}: {error.strerror or error}") from None
+        raise CommandError(USAGE_ERROR, f"{to.name}: {command.reason(error)}") from None
     return FINE

@@ -118,7 +118,7 @@ def test_one_bad_file_does_not_stop_the_others(folder: Path) -> None:
     done = m3dfmt("missing.m3d", "broken.m3d", "untidy.m3d", cwd=folder)
     assert done.returncode == 2
     assert (folder / "untidy.m3d").read_text() == TIDY
-    assert done.stderr.splitlines()[0] == "m3dfmt: cannot read missing.m3d: No such file or directory"
+    assert done.stderr.splitlines()[0] == "m3dfmt: error: cannot read missing.m3d: No such file or directory"
 
 
 @pytest.mark.parametrize(
@@ -137,15 +137,14 @@ def test_usage_and_files_are_status_2(arguments: tuple[str, ...], folder: Path) 
 def test_a_failed_write_leaves_the_old_file(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(path: Path, data: bytes) -> int:
-        with path.open("wb") as file:
-            file.write(data[:5])
+    def full(descriptor: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_bytes", full)
+    monkeypatch.setattr(os, "fsync", full)
     path = folder / "untidy.m3d"
     assert format_cli.main([str(path)]) == 2
-    assert capsys.readouterr().err == f"m3dfmt: cannot write {path}: No space left on device; nothing was changed\n"
+    says = f"m3dfmt: error: cannot write {path}: No space left on device; nothing was changed\n"
+    assert capsys.readouterr().err == says
     assert contents(folder) == {"untidy.m3d": UNTIDY, "tidy.m3d": TIDY, "broken.m3d": BROKEN}
 
 
@@ -161,7 +160,7 @@ def test_output_that_can_not_be_written() -> None:
             check=False,
         )
     assert done.returncode == 2
-    assert done.stderr == b"m3dfmt: cannot write the output: No space left on device\n"
+    assert done.stderr == b"m3dfmt: error: cannot write the output: No space left on device\n"
 
 
 def test_the_commands_of_the_page_run(tmp_path: Path, examples: Path) -> None:
@@ -169,7 +168,8 @@ def test_the_commands_of_the_page_run(tmp_path: Path, examples: Path) -> None:
     lines = [line for line in page.splitlines() if line.startswith("m3dfmt ")]
     assert len(lines) >= 4
     shutil.copytree(examples, tmp_path / "examples")
-    (tmp_path / "m3dfmt").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m m3dc.format_cli "$@"\n')
+    start = "from m3dc_command import m3dfmt; exit(m3dfmt())"
+    (tmp_path / "m3dfmt").write_text(f'#!/bin/sh\nexec "{sys.executable}" -c "{start}" "$@"\n')
     (tmp_path / "m3dfmt").chmod(0o755)
     environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
     for line in lines:

@@ -181,9 +181,67 @@ def test_sarif(scene: Path) -> None:
     assert run["tool"]["driver"]["rules"][0]["id"] == "M3D0301"
 
 
+def test_several_scenes_and_folders_are_checked(tmp_path: Path) -> None:
+    for name, text in {
+        "good.m3d": GOOD,
+        "bad.m3d": BAD,
+        "deep/er/warned.m3d": "SOLID { SPHERE { } SURFACE { COLOR < 2, 0, 0 > } }",
+        "deep/UPPER.M3D": GOOD,
+        "deep/no-scene.txt": BAD,
+        ".hidden/bad.m3d": BAD,
+    }.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+
+    def check(*names: str) -> tuple[int, str]:
+        done = m3dc("--check", *names, cwd=tmp_path)
+        return done.returncode, done.stderr.splitlines()[-1] if done.stderr else ""
+
+    assert check("good.m3d") == (0, "")
+    assert check("good.m3d", "deep/UPPER.M3D") == (0, "2 scenes: 2 fine")
+    assert check("deep") == (0, "2 scenes: 1 with warnings, 1 fine")
+    assert check(".") == (1, "4 scenes: 1 with errors, 1 with warnings, 2 fine")
+    assert check("good.m3d", "./good.m3d", "bad.m3d", "none.m3d") == (2, "4 scenes: 1 with errors, 2 fine, 1 not read")
+    done = m3dc("--check", "--message-format", "sarif", ".", cwd=tmp_path)
+    (run,) = json.loads(done.stdout)["runs"]
+    places = [result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for result in run["results"]]
+    assert places == ["bad.m3d", *["deep/er/warned.m3d"] * places.count("deep/er/warned.m3d")]
+    assert {path.suffix for path in tmp_path.rglob("*") if path.is_file()} == {".m3d", ".M3D", ".txt"}
+
+
+@pytest.mark.parametrize(
+    ("name", "uri", "shown"),
+    [
+        ("a b.m3d", "a%20b.m3d", "a b.m3d"),
+        ("50%#?.m3d", "50%25%23%3F.m3d", "50%#?.m3d"),
+        ("c:d.m3d", "c%3Ad.m3d", "c:d.m3d"),
+        ("ä/ö.m3d", "%C3%A4/%C3%B6.m3d", "ä/ö.m3d"),
+        (os.fsdecode(b"caf\xe9.m3d"), "caf%E9.m3d", "caf\ufffd.m3d"),
+    ],
+)
+def test_names_for_programs(name: str, uri: str, shown: str, tmp_path: Path) -> None:
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text(BAD)
+    for given, expected in ((name, uri), (str(tmp_path / name), uri)):
+        (run,) = json.loads(m3dc("--check", "--message-format", "sarif", given, cwd=tmp_path).stdout)["runs"]
+        place = run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
+        assert place == {"uri": expected}
+    outside = json.loads(m3dc("--check", "--message-format", "sarif", tmp_path / name).stdout)["runs"][0]["results"][0]
+    assert outside["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == f"{tmp_path.as_uri()}/{uri}"
+    assert json.loads(m3dc("--check", "--message-format", "json", name, cwd=tmp_path).stdout)["file"] == shown
+
+
 @pytest.mark.parametrize(
     "arguments",
-    [(), ("--nonsense", "a.m3d"), ("a.m3d", "b.m3d"), ("--check", "--dump", "a.m3d"), ("missing.m3d",), (".",)],
+    [
+        (),
+        ("--max-errors", "-1", "a.m3d"),
+        ("--nonsense", "a.m3d"),
+        ("a.m3d", "b.m3d"),
+        ("--check", "--dump", "a.m3d"),
+        ("missing.m3d",),
+        (".",),
+    ],
 )
 def test_usage_and_files_are_status_2(arguments: tuple[str, ...], tmp_path: Path) -> None:
     done = m3dc(*arguments, cwd=tmp_path)
@@ -195,7 +253,7 @@ def test_usage_and_files_are_status_2(arguments: tuple[str, ...], tmp_path: Path
 def test_a_folder_that_can_not_be_written(scene: Path, tmp_path: Path) -> None:
     done = m3dc("-o", tmp_path / "no" / "such" / "folder" / "x.m3ir", scene)
     assert done.returncode == 2
-    assert done.stderr.startswith("m3dc: cannot write ")
+    assert done.stderr.startswith("m3dc: error: cannot write ")
     assert done.stderr.count("\n") == 1
 
 

@@ -15,6 +15,7 @@ import pytest
 from scene_builder import merman
 
 import m3d_render
+from m3d_render.picture import linear
 from m3dc import m3ir
 
 SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
@@ -163,7 +164,7 @@ def test_extra_outputs_are_channels_of_an_exr(compiled, tmp_path):
     rendering = m3d_render.prepare(m3ir.read(compiled)).render(aov=["path", "position"], region=(2, 3, 11, 20))
     pixels = read.get_pixels(OpenImageIO.FLOAT)
     for name, values in [
-        ("B", rendering.picture[..., 2]),
+        ("B", linear(rendering.picture)[..., 2]),
         ("path.arcs", rendering.layers["path"][..., 1]),
         ("P.Y", rendering.layers["position"][..., 1]),
     ]:
@@ -222,7 +223,7 @@ def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_pa
 INTERRUPTED = """
 import itertools, signal, sys
 from m3d_render.cli import main
-from m3d_render.interrupt import Interrupt
+from m3dc.interrupt import Interrupt
 
 look, looks = Interrupt.asked, itertools.count(1)
 

@@ -1,5 +1,8 @@
 """Pictures in files."""
 
+import os
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +12,7 @@ import pytest
 
 import m3d_render
 import m3dc
-from m3d_render.picture import to_bytes
+from m3d_render.picture import linear, plane_paths, to_bytes
 
 
 @pytest.fixture
@@ -25,9 +28,89 @@ def test_what_is_written_can_be_read(tmp_path, picture, suffix, step):
     assert read.spec().getattribute("Software") == "m3d-render test"
     pixels = read.get_pixels(OpenImageIO.FLOAT)
     pixels = pixels[..., [read.spec().channelnames.index(name) for name in "RGB"]]
-    expected = picture if step is None else np.rint(picture * step) / step
+    expected = linear(picture) if step is None else np.rint(picture * step) / step
     np.testing.assert_allclose(pixels, expected, atol=1e-6)
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+
+
+def test_all_formats_mean_the_same_brightness(tmp_path):
+    """Each converted to linear light by what its file says it holds."""
+    picture = np.linspace(0, 1, 256 * 3, dtype=np.float32).reshape(16, 16, 3)
+    found = {}
+    for suffix in ("png", "tif", "exr"):
+        path = tmp_path / f"a.{suffix}"
+        m3d_render.write_picture(path, picture)
+        read = OpenImageIO.ImageBuf(str(path))
+        space = read.spec().getattribute("oiio:ColorSpace")
+        light = OpenImageIO.ImageBufAlgo.colorconvert(read, space, "lin_rec709_scene")
+        assert not light.has_error, light.geterror()
+        found[suffix] = light.get_pixels(OpenImageIO.FLOAT)
+    np.testing.assert_allclose(found["exr"], linear(picture), atol=1e-7)
+    np.testing.assert_allclose(found["tif"], found["exr"], atol=5e-5)
+    np.testing.assert_allclose(found["png"], found["exr"], atol=5e-3)
+    assert b"sRGB" in (tmp_path / "a.png").read_bytes()[:200]
+
+
+@pytest.mark.parametrize("suffix", ["png", "tif", "exr"])
+def test_a_picture_holds_no_time_but_the_one_that_is_asked_for(tmp_path, picture, suffix, monkeypatch):
+    def written():
+        path = tmp_path / f"a.{suffix}"
+        m3d_render.write_picture(path, picture)
+        return path.read_bytes(), OpenImageIO.ImageBuf(str(path)).spec().getattribute("DateTime")
+
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    assert written()[1] is None
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "760000000")
+    content, date = written()
+    assert date == "1994:01:31 07:06:40"
+    assert written()[0] == content
+
+
+NOT_UTF8 = os.fsdecode(b"caf\xe9")
+
+
+@pytest.mark.parametrize("suffix", m3d_render.picture.SUFFIXES)
+def test_a_name_may_be_no_utf8(tmp_path, picture, suffix):
+    folder = tmp_path / NOT_UTF8
+    folder.mkdir()
+    for path in m3d_render.write_picture(folder / f"{NOT_UTF8}{suffix}", picture):
+        assert path.stat().st_size
+
+
+FULL = """
+import resource, sys
+import numpy as np
+from m3d_render.picture import PictureError, write_picture
+
+# Nothing can be written beyond so many bytes, as on a disk that is full.
+picture = np.random.default_rng(3).uniform(0, 1, (200, 300, 3)).astype(np.float32)
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), resource.RLIM_INFINITY))
+try:
+    write_picture(sys.argv[1], picture)
+except PictureError as error:
+    sys.exit(str(error))
+"""
+
+
+@pytest.mark.parametrize("room", [0, 5000, -1])
+@pytest.mark.parametrize("suffix", m3d_render.picture.SUFFIXES)
+def test_a_full_disk_leaves_the_old_file(tmp_path, suffix, room):
+    path = tmp_path / f"a{suffix}"
+    olds = plane_paths(path) if suffix == ".raw" else [path]
+    if room < 0:  # the last byte is missing
+        words = [sys.executable, "-c", FULL, str(path), str(2**40)]
+        assert subprocess.run(words, check=False).returncode == 0
+        room += olds[0].stat().st_size
+    for old in olds:
+        old.write_text("old")
+    done = subprocess.run(
+        [sys.executable, "-c", FULL, str(path), str(room)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert str(olds[0]) in done.stderr
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert {entry.name for entry in tmp_path.iterdir()} == {old.name for old in olds}
+    assert {old.read_text() for old in olds} == {"old"}
 
 
 def test_planar_files(tmp_path, picture):

@@ -23,6 +23,7 @@ from m3d_render.view.cli import main
 from m3d_render.view.follower import Follower
 from m3d_render.view.opening import Opened, open_scene
 from m3d_render.view.stage import LAYERS, Stage
+from m3d_render.view.viewpoint import fitting_vertical
 from m3d_render.view.window import Window
 
 RED, GREEN, BLUE, YELLOW = (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)
@@ -109,6 +110,35 @@ def test_rays_are_drawn_along_their_paths(shot):
     _, steepest = view_angles(m3dc.compile(scene).ir)
     np.testing.assert_allclose(columns[upper], level.min() + (100 - rows[upper]) / math.tan(steepest), atol=3)
     assert set(rows[upper]) == set(range(95))
+
+
+@pytest.mark.parametrize(
+    ("scene", "vertical"), [("merman", 20), ("fata-morgana", 50), ("wheel", 1), ("two-balls", 1), ("terrain", 1)]
+)
+def test_heights_are_stretched_from_the_side_where_little_would_be_seen(examples, scene, vertical):
+    ir = m3dc.compile((examples / f"{scene}.m3d").read_bytes()).ir
+    assert fitting_vertical(ir, "side", 1.6) == vertical
+    assert fitting_vertical(ir, "camera", 1.6) == fitting_vertical(ir, "above", 1.6) == 1
+
+
+def test_what_is_done_with_heights_is_said(shot, examples, capsys):
+    shot((examples / "merman.m3d").read_text(), "--from", "side")
+    assert "from the side, heights stretched 20 times, or little would be seen" in capsys.readouterr().err
+
+
+def test_automatic_heights_follow_the_viewpoint_until_a_key_changes_them(pyvista, examples):
+    stage = Stage(pyvista, size=(160, 100), off_screen=True, rays=3)
+    opened = open_scene(str(examples / "merman.m3d"))
+    assert isinstance(opened, Opened)
+    stage.show(opened)
+    stage.look("camera")
+    window = Window(stage, "merman.m3d")
+    heights = [stage.vertical]
+    for key in "3", "2", "3", "plus", "1":
+        window.press(key)
+        heights.append(stage.vertical)
+    assert heights == [1, 20, 1, 20, 40, 40]
+    stage.plotter.close()
 
 
 def test_heights_are_stretched(shot):

@@ -21,7 +21,7 @@ from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.plot import figure, profile, rays, transfer
 from m3d_render.ray_options import angles, distances
 from m3d_render.rendering import SceneError
-from m3dc.artefact import replacing
+from m3dc.artefact import replacing, text_of
 from m3dc.ir import SceneIR
 
 if TYPE_CHECKING:
@@ -38,11 +38,15 @@ LEGEND_COLUMN = 5.2
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
+    return command.ended("m3d-plot", lambda: _main(arguments))
+
+
+def _main(arguments: Sequence[str] | None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.output is None and options.csv is None:
         parser.error("where should the figure go? Give -o FIGURE, or --csv FILE for its data")
-    return command.ended(parser.prog, lambda: _run(options))
+    return _run(options)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -124,14 +128,12 @@ def _add_angles(parser: argparse.ArgumentParser, default: str) -> None:
         "--angles",
         type=angles,
         metavar="FROM:TO:STEP",
-        help=f"angles above the horizontal, in arcminutes; write --angles=FROM... if it is below 0 ({default})",
+        help=f"angles above the horizontal, in arcminutes ({default})",
     )
 
 
 def _add_heights(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--heights", type=_heights, metavar="LOW:HIGH", help="the heights that are shown, m; --heights=LOW... as above"
-    )
+    parser.add_argument("--heights", type=_heights, metavar="LOW:HIGH", help="the heights that are shown, m")
 
 
 def _size(text: str) -> tuple[float, float]:
@@ -159,6 +161,7 @@ def _heights(text: str) -> tuple[float, float]:
 
 def _run(options: argparse.Namespace) -> int:
     output: Path | None = options.output
+    command.check_outputs(options.scene, [path for path in (output, options.csv) if path not in (None, "-")])
     if output is not None:
         command.check_folder(output)
         figure.check(output)
@@ -249,10 +252,12 @@ def _write(file: str, table: Table) -> None:
         _print(table, sys.stdout)
         return
     try:
-        with replacing(Path(file)) as (temporary,), temporary.open("w", encoding="utf-8") as stream:
+        with replacing(Path(file)) as (binary,), text_of(binary) as stream:
             _print(table, stream)
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        raise CommandError(USAGE_ERROR, f"{file}: {error.strerror or error}") from None
+        raise CommandError(USAGE_ERROR, f"{file}: {command.reason(error)}") from None
 
 
 def _print(table: Table, file: IO[str]) -> None:

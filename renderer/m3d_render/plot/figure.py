@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from m3d_render.command import USAGE_ERROR, CommandError
+from m3d_render.command import USAGE_ERROR, CommandError, reason
 from m3dc.artefact import replacing
 
 if TYPE_CHECKING:
@@ -56,16 +56,18 @@ def save(output: Path, size: tuple[float, float], draw: Callable[[Figure], None]
         figure = Figure(figsize=(size[0] / 2.54, size[1] / 2.54), layout="constrained")
         draw(figure)
         try:
-            with replacing(output) as (temporary,):
+            with replacing(output) as (file,):
                 if suffix == ".png":
-                    _save_in_greys(figure, temporary)
+                    _save_in_greys(figure, file)
                 else:
-                    figure.savefig(temporary, format=suffix[1:], metadata=_UNDATED[suffix])
+                    figure.savefig(file, format=suffix[1:], metadata=_UNDATED[suffix])
+        except BrokenPipeError:
+            raise
         except OSError as error:
-            raise CommandError(USAGE_ERROR, f"{output}: {error.strerror or error}") from None
+            raise CommandError(USAGE_ERROR, f"{output}: {reason(error)}") from None
 
 
-def _save_in_greys(figure: Figure, file: Path) -> None:
+def _save_in_greys(figure: Figure, file: BinaryIO) -> None:
     """A PNG of one channel: there is no colour in the figures, and so it takes a third of the room."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image

@@ -12,16 +12,18 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from m3dc_command import Terminated
+
 from m3d_render import command
-from m3d_render.command import FINE, INTERRUPTED, USAGE_ERROR, CommandError
+from m3d_render.command import FINE, USAGE_ERROR, CommandError, say
 from m3d_render.view.backend import check_window, load_pyvista
 from m3d_render.view.fan import MOST_RAYS, RAYS
 from m3d_render.view.follower import Follower
 from m3d_render.view.opening import Fault, Opened, open_scene
-from m3d_render.view.stage import LAYERS, LEAST_VERTICAL, MOST_VERTICAL, Stage
-from m3d_render.view.viewpoint import FROM
+from m3d_render.view.stage import LAYERS, Stage
+from m3d_render.view.viewpoint import FROM, LEAST_VERTICAL, MOST_VERTICAL
 from m3d_render.view.window import Window, heading
-from m3dc.artefact import replacing
+from m3dc.artefact import write_file
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp")
 LARGEST_SIDE = 8192
@@ -30,9 +32,7 @@ NOTHING = "nothing is there"
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit status."""
-    parser = _parser()
-    options = parser.parse_args(arguments)
-    return command.ended(parser.prog, lambda: _run(options))
+    return command.ended("m3d-view", lambda: _run(_parser().parse_args(arguments)))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -59,9 +59,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--vertical",
         type=_vertical,
-        default=1.0,
         metavar="N",
-        help="stretch heights N times: mirages are kilometres long and metres high (1)",
+        help="stretch heights N times: mirages are kilometres long and metres high (from the side as much as shows "
+        "something, else 1)",
     )
     parser.add_argument(
         "--rays",
@@ -109,6 +109,7 @@ def _run(options: argparse.Namespace) -> int:
     if output is not None:
         if output.suffix.lower() not in SUFFIXES:
             raise CommandError(USAGE_ERROR, f"{output}: one of {', '.join(SUFFIXES)} must name the picture's format")
+        command.check_outputs(options.scene, [output])
         command.check_folder(output)
     with ThreadPoolExecutor(1) as executor:
         follower = None if options.scene == "-" else Follower(Path(options.scene), executor)
@@ -116,17 +117,30 @@ def _run(options: argparse.Namespace) -> int:
         stage = _stage(load_pyvista(window=output is None), opened, options)
         if output is not None:
             _write(output, stage, options)
+            say(f"m3d-view: {_shown(stage, options)}; written: {output}")
             return FINE
         window = Window(stage, command.name(options.scene), follower)
+        say(f"m3d-view: {_shown(stage, options)}; the window follows the file, and q closes it")
         if options.pick is not None:
-            print(window.click(*options.pick) or NOTHING)
-        return INTERRUPTED if window.run() else FINE
+            print(window.click(*options.pick) or NOTHING, flush=True)
+        if number := window.run():
+            raise Terminated(number)
+        return FINE
+
+
+def _shown(stage: Stage, options: argparse.Namespace) -> str:
+    """What is shown, and how, in words."""
+    where = {"camera": "from the scene's camera", "above": "from above", "side": "from the side"}[options.place]
+    if stage.vertical == 1:
+        return f"{command.name(options.scene)} {where}"
+    why = "" if options.vertical is not None else ", or little would be seen; --vertical 1 shows them as they are"
+    return f"{command.name(options.scene)} {where}, heights stretched {stage.vertical:g} times{why}"
 
 
 def _first(scene: str) -> Opened:
     opened = open_scene(scene)
-    print(opened.report if isinstance(opened, Fault) else opened.warnings, end="", file=sys.stderr)
     if isinstance(opened, Fault):
+        print(opened.report, end="", file=sys.stderr)
         raise CommandError(opened.status)
     return opened
 
@@ -156,10 +170,11 @@ def _write(output: Path, stage: Stage, options: argparse.Namespace) -> None:
         stage.say(text, "upper_right")
         print(text)
     try:
-        with replacing(output) as (temporary,):
-            stage.plotter.screenshot(str(temporary))
+        write_file(output, stage.photograph(output.suffix))
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        raise CommandError(USAGE_ERROR, f"{output}: {error.strerror or error}") from None
+        raise CommandError(USAGE_ERROR, f"{output}: {command.reason(error)}") from None
     finally:
         stage.plotter.close()
 

@@ -12,11 +12,10 @@ from m3dc.source import Source
 
 
 class Opened(NamedTuple):
-    """A scene that can be shown. `source` is its text, None of a compiled one; `warnings` are as m3dc prints them."""
+    """A scene that can be shown. `source` is its text, None of a compiled one."""
 
     ir: SceneIR
     source: Source | None
-    warnings: str = ""
 
 
 class Fault(NamedTuple):
@@ -37,7 +36,7 @@ def open_scene(scene: str) -> Opened | Fault:
     except CommandError as failure:
         return Fault(str(failure), f"m3d-view: error: {failure}\n", failure.status)
     if result.ok:
-        return Opened(result.ir, result.source, printed.getvalue())
+        return Opened(result.ir, result.source)
     first = next(diagnostic for diagnostic in result.diagnostics if diagnostic.severity == "error")
     line = result.source.position(first.span[0]).line
     return Fault(f"line {line}: {first.headline}", printed.getvalue(), SCENE_ERROR)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterable
 from typing import Any
 
@@ -17,14 +18,12 @@ from m3d_render.view.fan import fan
 from m3d_render.view.ground import ground
 from m3d_render.view.marks import box, extent_box, frustum, light_marks
 from m3d_render.view.opening import Opened
-from m3d_render.view.viewpoint import From, viewpoint
+from m3d_render.view.viewpoint import LEAST_VERTICAL, MOST_VERTICAL, From, fitting_vertical, viewpoint
 
 Points = NDArray[np.float64]
 
 LAYERS = ("rays", "camera", "lights", "extents", "ground", "axes")
 """What can be shown or hidden, beside the solids."""
-
-LEAST_VERTICAL, MOST_VERTICAL = 1e-3, 1e6
 
 _STEEPEST, _INCLINED = 0.9995, 0.04  # the sine and the tangent of 2 degrees from the vertical: turning ends at 1
 _BACKGROUND = "#a9b3ba"  # black and white things are seen on it
@@ -42,8 +41,8 @@ _SHADING = {"solids": {"ambient": 0.45, "diffuse": 0.55}, "ground": {"ambient": 
 
 
 class Stage:
-    """One scene before one camera. `vertical` is how many times heights are stretched; `notes` are what could not be
-    shown and why."""
+    """One scene before one camera. `vertical` is how many times heights are stretched: as asked for, or as it shows
+    something from where it is looked. `notes` are what could not be shown and why."""
 
     def __init__(
         self,
@@ -53,7 +52,7 @@ class Stage:
         off_screen: bool,
         rays: int,
         hidden: Iterable[str] = (),
-        vertical: float = 1.0,
+        vertical: float | None = None,
         title: str = "m3d-view",
     ) -> None:
         self._pyvista = pyvista
@@ -64,7 +63,8 @@ class Stage:
         self.plotter.set_background(_BACKGROUND)
         # Lines without steps; solids keep their colours up to their edges.
         self.plotter.enable_anti_aliasing("msaa")
-        self.vertical = vertical
+        self.vertical = 1.0 if vertical is None else vertical
+        self._fitting = vertical is None
         self.notes: list[str] = []
         self._rays = rays
         self._hidden = set(hidden)
@@ -109,6 +109,7 @@ class Stage:
     def stretch(self, vertical: float) -> None:
         """Stretches heights so many times."""
         stayed = self._stayed()
+        self._fitting = False
         before, self.vertical = self.vertical, float(np.clip(vertical, LEAST_VERTICAL, MOST_VERTICAL))
         self._stretch()
         if stayed is None:
@@ -122,6 +123,11 @@ class Stage:
         """Looks from the scene's camera, from above or from the side."""
         assert self._opened is not None
         width, height = self.plotter.window_size
+        if self._fitting:
+            vertical = fitting_vertical(self._opened.ir, place, width / height)
+            if vertical != self.vertical:
+                self.vertical = vertical
+                self._stretch()
         found = viewpoint(self._opened.ir, place, width / height, self.vertical)
         camera = self.plotter.camera
         camera.position, camera.focal_point, camera.up = found.position, found.target, found.up
@@ -174,6 +180,15 @@ class Stage:
         )
         actor.prop.background_color = _PAPER
         actor.prop.background_opacity = _PAPER_OPACITY
+
+    def photograph(self, suffix: str) -> bytes:
+        """The bytes of a picture's file, in the format that the suffix names."""
+        from PIL import Image  # pyvista brings it
+
+        pixels: Any = self.plotter.screenshot(None, return_img=True)
+        file = io.BytesIO()
+        Image.fromarray(np.asarray(pixels)).save(file, format=Image.registered_extensions()[suffix.lower()])
+        return file.getvalue()
 
     # --- what is where -----------------------------------------------------------------------------------------------
 

@@ -9,16 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.geometry import ViewPlane
-from m3d_render.sight import things_distance
-from m3d_render.view.ground import places_of_interest
+from m3d_render.sight import things_distance, view_angles
+from m3d_render.view.ground import places_of_interest, round_down
 from m3dc.ir import SceneIR
 
 Points = NDArray[np.float64]
 From = Literal["camera", "above", "side"]
 
+LEAST_VERTICAL, MOST_VERTICAL = 1e-3, 1e6
+
 FROM: tuple[From, ...] = ("camera", "above", "side")
 
 _MARGIN = 1.2
+_FLAT = 1 / 12  # of the window's height: what is lower is stretched ...
+_UPRIGHT = 2 / 3  # ... to so much
 
 
 class Viewpoint(NamedTuple):
@@ -58,6 +62,22 @@ def viewpoint(ir: SceneIR, place: From, ratio: float, vertical: float = 1.0) -> 
     )
     away = float(np.ptp(points, axis=0).max()) + half_height
     return Viewpoint(middle + 2 * away * back, middle, upward, half_height=half_height)
+
+
+def fitting_vertical(ir: SceneIR, place: From, ratio: float) -> float:
+    """How many times heights must be stretched for something to be seen of them, a round number: from the side of what
+    is far longer than high. From the camera it is 1, since it sees what the picture shows."""
+    if place != "side":
+        return 1.0
+    points = places_of_interest(ir)
+    window = float(np.ptp(points @ ViewPlane.of(ir).along)) / ratio
+    # Things, the eye, and what the picture shows at the distance of the things.
+    distance = things_distance(ir)
+    seen = [ir.scene.view.eye[2] + distance * math.tan(angle) for angle in view_angles(ir)]
+    high = float(np.ptp([*points[:, 2], *seen]))
+    if not 0 < high < _FLAT * window:
+        return 1.0
+    return min(max(round_down(_UPRIGHT * window / high), 1.0), MOST_VERTICAL)
 
 
 def _camera(ir: SceneIR, ratio: float, stretch: Points) -> Viewpoint:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 from collections.abc import Callable
-from types import FrameType
 from typing import Any, NamedTuple
 
 from m3d_render.view.follower import Follower
 from m3d_render.view.opening import Fault
 from m3d_render.view.stage import Stage
+from m3dc.interrupt import Interrupt
 
 _POLL = 250  # milliseconds between two looks at the file
 _CLICK = 4  # pixels by which the mouse may move in a click
@@ -99,8 +98,8 @@ class Window:
         if iren is not None:
             iren.terminate_app()
 
-    def run(self) -> bool:
-        """Shows the window until it is closed. Returns whether that was by Ctrl-C in the terminal."""
+    def run(self) -> int:
+        """Shows the window until it is closed. Returns the signal that closed it (Ctrl-C in the terminal), or 0."""
         plotter: Any = self.stage.plotter
         iren = plotter.iren
         iren.enable_terrain_style(mouse_wheel_zooms=True, shift_pans=True)
@@ -110,21 +109,15 @@ class Window:
         iren.add_observer("LeftButtonPressEvent", self._on_press)
         iren.add_observer("LeftButtonReleaseEvent", self._on_release)
         iren.add_observer("TimerEvent", self._on_timer)
-        interrupted: list[int] = []
-
-        def interrupt(number: int, frame: FrameType | None) -> None:
-            interrupted.append(number)
-            self.close()
-
-        before = signal.signal(signal.SIGINT, interrupt)
+        interrupt = Interrupt(self.close)
         try:
-            iren.initialize()
-            iren.create_timer(_POLL, repeating=True)
-            plotter.show(auto_close=False)
+            with interrupt:
+                iren.initialize()
+                iren.create_timer(_POLL, repeating=True)
+                plotter.show(auto_close=False)
         finally:
-            signal.signal(signal.SIGINT, before)
             plotter.close()
-        return bool(interrupted)
+        return interrupt.number
 
     def _on_key(self, *_: object) -> None:
         self.press(self.stage.plotter.iren.interactor.GetKeySym())

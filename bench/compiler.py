@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
+from pathlib import Path
 
-from . import povray
+from . import povray, scenes
 from .child import Run, run
 from .result import MEGABYTE, Aim, Result, alternate, middle, spread
 from .workshop import Workshop
@@ -74,4 +76,35 @@ def terrain(shop: Workshop) -> list[Result]:
             middle(t.peak / MEGABYTE for t in theirs) if theirs else None,
             Aim(1.0),
         ),
+    ]
+
+
+_COMPILE = "import sys, m3dc; m3dc.compile(open(sys.argv[1], 'rb').read())"
+
+
+def hostile(shop: Workshop) -> list[Result]:
+    """Texts that are made to cost much, against a sound scene of as many bytes."""
+    ordinary = shop.scene("many")
+    places: dict[str, Path] = {}
+    for number, (what, text) in enumerate(scenes.HOSTILE.items()):
+        places[what] = shop.folder / f"hostile-{number}.m3d"
+        places[what].write_text(text())
+
+    def cost(scene: Path) -> float:
+        return run([sys.executable, "-c", _COMPILE, scene]).cpu
+
+    theirs, *ours = alternate(1, lambda: cost(ordinary), *(partial(cost, place) for place in places.values()))
+    costs = dict(zip(places, (middle(seconds) for seconds in ours), strict=True))
+    dearest = max(costs, key=lambda what: costs[what])
+    return [
+        Result(
+            "compile-hostile",
+            f"compiling {dearest}: the dearest of {len(costs)} hostile texts",
+            "the same of 4,000 solids, as many bytes",
+            "s",
+            costs[dearest],
+            middle(theirs),
+            Aim(5.0),
+            "; ".join(f"{what} {seconds:.2f} s" for what, seconds in costs.items()),
+        )
     ]

@@ -32,6 +32,7 @@ FACETS = "1,000,000 triangles and 100 mirror spheres, 1280 x 800"
 GROUPS = (
     Group(("dump-small",), compiler.start),
     Group(("compile-terrain", "compile-terrain-memory"), compiler.terrain),
+    Group(("compile-hostile",), compiler.hostile),
     Group(
         ("merman-shadows",),
         partial(

@@ -243,7 +243,41 @@ SOLID
 }}
 """
 
-SCENES: dict[str, Callable[[], str]] = {"small": small, "merman": merman, "terrain": terrain, "long": long}
+
+def many() -> str:
+    """4,000 solids of a sphere each: 390 KB."""
+    return "\n".join(
+        f"SOLID {{ SPHERE {{ CENTER < {number}, 0, 0 > RADIUS 0.5 }} SURFACE {{ COLOR < 1, 0, 0 > SPECULAR 0.5 }} }}"
+        for number in range(4000)
+    )
+
+
+def _undeclared(count: int) -> str:
+    declared = ", ".join(f"name{number}x" for number in range(count))
+    used = " ".join(f"RADIUS name{number}" for number in range(count))
+    return f"VARIABLES {{ NUMBER {declared}; }} SOLID {{ SPHERE {{ {used} }} }}"
+
+
+HOSTILE: dict[str, Callable[[], str]] = {
+    "names that are not declared": lambda: _undeclared(15_000),
+    "blocks that are not closed": lambda: "SOLID { " * 48_000,
+    "lines that are not closed": lambda: "SOLID {\n" * 48_000,
+    "junk": lambda: "ab $ {} < 3 ; foo\n" * 21_000,
+    "parts added one by one": lambda: "VARIABLES { SOLID a; } " + "a = { SPHERE { } } " * 20_000 + "SOLID a",
+    "a solid copied without end": lambda: "VARIABLES { SOLID a; } a = { "
+    + "SPHERE { } " * 2000
+    + "} "
+    + "SOLID a " * 45_000,
+}
+"""Texts of about as many bytes as `many`, that would cost much more if work were not bounded."""
+
+SCENES: dict[str, Callable[[], str]] = {
+    "small": small,
+    "merman": merman,
+    "terrain": terrain,
+    "long": long,
+    "many": many,
+}
 """What can be made, by the name of its file."""
 
 

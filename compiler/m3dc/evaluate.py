@@ -27,7 +27,7 @@ from .reach import check_reach
 from .size import Size
 from .transform import IDENTITY, STEPS, Transform, cosine_and_sine
 from .units import looks_like_bytes
-from .values import Record, TableValue, Value, Vector, spelled
+from .values import Parts, Record, TableValue, Value, Vector, spelled
 
 T = TypeVar("T")
 
@@ -193,7 +193,8 @@ class Evaluator:
                     added.append(self._once(member.span, member, partial(self._whole, member)))
                 case program.Block():
                     self._nested(record, member)
-        record.parts += tuple(added)
+        if added:
+            record.parts = Parts(record.parts, tuple(added)) if record.parts else tuple(added)
         record.idle = idle(record, members)
 
     def _nested(self, record: Record, block: program.Block) -> None:

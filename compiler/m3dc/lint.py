@@ -8,7 +8,7 @@ assignments.py, and of numbers in another unit units.py. What can be seen while 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
@@ -134,7 +134,7 @@ def _segments(world: World, _shapes: list[_Shape], findings: Findings) -> None:
         findings.add_at("M3D0508", mirage.place("SEGMENTS"), "the rest of it has no effect")
 
 
-def _textures(thing: Record) -> tuple[Record, ...]:
+def _textures(thing: Record) -> Sequence[Record]:
     surface = thing.nested.get("SURFACE")
     textures = None if surface is None else surface.nested.get("TEXTURE")
     return () if textures is None else textures.parts

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +58,40 @@ class Mesh(NamedTuple):
         return at, at + 1
 
 
+class Parts(Sequence["Record"]):
+    """Parts of a record: those it was copied with, which are shared, and those that were added. What is added one by
+    one, each time to a copy, takes no more memory than is written."""
+
+    __slots__ = ("_added", "_before", "_length")
+
+    def __init__(self, before: Sequence[Record], added: tuple[Record, ...]) -> None:
+        self._before = before
+        self._added = added
+        self._length = len(before) + len(added)
+
+    def __len__(self) -> int:
+        return self._length
+
+    def __iter__(self) -> Iterator[Record]:
+        later: list[tuple[Record, ...]] = []
+        parts: Sequence[Record] = self
+        while isinstance(parts, Parts):
+            later.append(parts._added)
+            parts = parts._before
+        yield from parts
+        for added in reversed(later):
+            yield from added
+
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Record]: ...
+    def __getitem__(self, index: int | slice) -> Record | Sequence[Record]:
+        if isinstance(index, int) and -len(self._added) <= index < 0:
+            return self._added[index]
+        return tuple(self)[index]
+
+
 class Record:
     """The value of a block: its members so far. All spans are of the whole text.
 
@@ -87,7 +122,7 @@ class Record:
         self.values: dict[str, Default] = dict(_DEFAULTS[block])
         self.places: dict[str, Span] = {}
         self.nested: dict[str, Record] = {}
-        self.parts: tuple[Record, ...] = ()
+        self.parts: Sequence[Record] = ()
         self.tables: dict[str, TableValue] = {}
         self.transform: Transform = IDENTITY
         self.broken: frozenset[str] = frozenset()

@@ -6,6 +6,7 @@ from __future__ import annotations
 import cProfile
 import itertools
 import pstats
+import tracemalloc
 from collections.abc import Callable
 
 import pytest
@@ -39,6 +40,17 @@ def test_facets_and_textures_are_counted() -> None:
     waves = "VARIABLES { SURFACE s; } s = { TEXTURE { WAVES { " + "WAVE { } " * 3000 + "} } } "
     codes = [d.code for d in m3dc.compile(waves + "SOLID { SPHERE { } SURFACE s } " * 800).diagnostics]
     assert "M3D0412" in codes
+
+
+def test_copies_share_their_parts() -> None:
+    text = "VARIABLES { SOLID a; } " + "a = { SPHERE { } } " * 20_000 + "SOLID a a = { SPHERE { RADIUS 3 } } SOLID a"
+    tracemalloc.start()
+    solids = Analyser().analyse(m3dc.Source(text.encode())).world.solids
+    assert [len(solid.parts) for solid in solids] == [20_000, 20_001]
+    assert tracemalloc.get_traced_memory()[1] < 400_000_000  # two billion, if each had them all
+    tracemalloc.stop()
+    assert [part.number("RADIUS") for part in solids[1].parts[-2:]] == [1, 3]
+    assert sum(1 for _ in solids[1].parts) == 20_001
 
 
 def calls(work: Callable[[], object]) -> int:

@@ -193,10 +193,12 @@ impl Bvh {
         start > f64::from(self.top) && ray.direction.z >= 0.0
     }
 
-    /// Whether the slabs of a ray from here hold numbers, so that it can be taken through the tree.
+    /// Whether the slabs of a ray hold numbers, so that it can be taken through the tree.
     #[inline]
-    pub fn sees(&self, origin: DVec3) -> bool {
-        origin.abs().cmple(DVec3::splat(FARTHEST_ORIGIN)).all()
+    pub fn takes(&self, origin: DVec3, direction: DVec3) -> bool {
+        let far = origin.abs().max_element();
+        // Of numbers and what is none the sum is none.
+        far + 0.0 * (origin + direction).element_sum() <= FARTHEST_ORIGIN
     }
 
     /// Constants of the slab test along one axis.

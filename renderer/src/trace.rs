@@ -85,9 +85,8 @@ fn walk(tree: &Bvh, ray: &Ray, search: &mut impl Search, stack: &mut Vec<Visit>)
     ) {
         tree.walk(&mut Straight::<S, OCTANT> { search, slabs, from }, stack);
     }
-    if !tree.sees(ray.origin) {
-        tree.items().iter().any(|item| search.test(item.shape, item.corners));
-        return;
+    if !tree.takes(ray.origin, ray.direction) {
+        return try_all(tree, ray, search);
     }
     let slabs = &[0, 1, 2].map(|axis| tree.slab(axis, ray.origin, ray.direction[axis]));
     let from = (ray.from as f32).next_down();
@@ -100,6 +99,16 @@ fn walk(tree: &Bvh, ray: &Ray, search: &mut impl Search, stack: &mut Vec<Visit>)
         [1, 0, _] => within::<_, 5>(tree, slabs, from, search, stack),
         [0, 1, _] => within::<_, 6>(tree, slabs, from, search, stack),
         _ => within::<_, 7>(tree, slabs, from, search, stack),
+    }
+}
+
+/// Takes a search to every shape of a tree, where the slabs of the ray would hold no numbers. A ray that starts nowhere
+/// or leads nowhere meets none.
+#[cold]
+#[inline(never)]
+fn try_all(tree: &Bvh, ray: &Ray, search: &mut impl Search) {
+    if ray.is_finite() {
+        tree.items().iter().any(|item| search.test(item.shape, item.corners));
     }
 }
 
@@ -136,7 +145,7 @@ impl Search for Nearest<'_> {
 /// The first shape of a tree along a straight ray.
 #[inline]
 pub fn nearest(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
-    if tree.is_empty() || !ray.is_finite() { None } else { nearest_of_any(shapes, tree, ray, stack) }
+    if tree.is_empty() { None } else { nearest_of_any(shapes, tree, ray, stack) }
 }
 
 fn nearest_of_any(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> Option<Hit> {
@@ -173,9 +182,6 @@ impl Search for Blocker<'_> {
 
 /// Whether a shape of the tree lies on the ray before its end.
 pub fn blocked(shapes: &Shapes, tree: &Bvh, ray: &Ray, stack: &mut Vec<Visit>) -> bool {
-    if !ray.is_finite() {
-        return false;
-    }
     let mut blocker = Blocker { shapes, ray: *ray, limit: at_least(ray.to), found: false };
     if tree.unbounded.iter().any(|&shape| blocker.test(shape, shapes.corners_of(shape))) {
         return true;
@@ -212,9 +218,7 @@ impl Curved<'_, '_, '_> {
     /// The first shape of a tree.
     fn first_of(mut self, tree: &Bvh, stack: &mut Vec<Visit>) -> Option<(Hit, Crossing)> {
         match self.slabs.map(|slab| slab.near_side) {
-            _ if !tree.sees(self.plane.origin) => {
-                tree.items().iter().for_each(|item| self.try_shape(item.shape, item.corners));
-            }
+            _ if !tree.takes(self.plane.origin, DVec3::ZERO) => self.try_all(tree),
             [0, 0] => tree.walk(&mut Walking::<0>(&mut self), stack),
             [1, 0] => tree.walk(&mut Walking::<1>(&mut self), stack),
             [0, _] => tree.walk(&mut Walking::<2>(&mut self), stack),
@@ -225,6 +229,13 @@ impl Curved<'_, '_, '_> {
             self.try_shape(shape, self.shapes.corners_of(shape));
         }
         self.found
+    }
+
+    /// As of a straight ray.
+    #[cold]
+    #[inline(never)]
+    fn try_all(&mut self, tree: &Bvh) {
+        tree.items().iter().for_each(|item| self.try_shape(item.shape, item.corners));
     }
 
     fn try_shape(&mut self, shape: ShapeId, corners: [u32; 3]) {

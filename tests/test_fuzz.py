@@ -39,3 +39,26 @@ def test_it_ends_when_its_time_is_over() -> None:
 def test_nothing_is_found_in_a_few_cases(name: str) -> None:
     target = importlib.import_module(f"fuzz.{name}")
     assert target.run(math.inf, 1, cases=getattr(target, "CASES", USUAL_CASES)) == []
+
+
+# What was found once, made small.
+KEPT = {
+    "editor": (
+        b"SOLID { SPHERE { CENTER < 1e20, 0, 0 > TRANSFORM { SCALEX 1e300 } } TRANSFORM { SCALEX 1e300 ROTX 3 } }",
+        b"SOLID { TRIANGLE { VERTEX1 < 1e20, 0, 0 > TRANSFORM { SCALEX 1e200 } } TRANSFORM { SCALEX 1e100 } }",
+    ),
+    "text": (
+        b"SOLID { SPHERE { CENTER < 1e20, 0, 0 > } TRANSFORM { SCALE < 1e300, 1e300, 1e300 > } }",
+        b"SOLID { POLYGONS { VERTICES { 3 <0,0,0> <1,0,0> <0,1,0> } SFACETS { 1 0 1 2 <0,0,1> <0,0,1> <0,0,1> } } "
+        b"TRANSFORM { SCALEX 1e-300 } }",
+    ),
+    "wireframe": (
+        b"SOLID { TERRAIN { VERTICES { 2 3 <0,0,0> <0,2,0> <0,10,0> <1,0,0> <1,1,0> <1e18,1,0> } } }",
+        b"SOLID { SPHERE { RADIUS 1e-320 CENTER < 20, 0, 6 > } }",
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "data"), [(name, data) for name, inputs in KEPT.items() for data in inputs])
+def test_what_was_found_once_stays_right(name: str, data: bytes) -> None:
+    assert importlib.import_module(f"fuzz.{name}").check(data) is None

@@ -117,6 +117,8 @@ def put(*keys: str, value: object):
     ("change", "says"),
     [
         (put("version", value="2"), "version is not a whole number"),
+        (put("version", value=10**400), "its format version is 1000"),
+        (put("scene", "view", "bott\x00m", value=3), "there is no scene.view.bott?m"),
         (put("source", value=3), "source is not a text"),
         (put("scene", value=[]), "scene is not an object"),
         (put("scene", "log_scale", value=float("inf")), "scene.log_scale is not a finite number"),

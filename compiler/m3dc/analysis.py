@@ -78,8 +78,8 @@ class Analyser:
         syntax = parse(source, findings, self._parsed)
         items: list[ast.TopLevel] = []
         checked: list[program.Item] = []
-        right = check(source, noted(syntax.items, items), syntax.faulty, findings, self._checks)
-        world = Evaluator(findings).run(noted(right, checked), syntax.faulty, self._runs)
+        right = check(source, noted(syntax.items, items), syntax, findings, self._checks)
+        world = Evaluator(findings).run(noted(right, checked), syntax.unfinished, self._runs)
         if not has_errors(findings.found):
             self._lints.begin()
             lint(world, checked, findings, self._lints)

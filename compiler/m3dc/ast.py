@@ -8,6 +8,9 @@ from typing import NamedTuple, TypeAlias
 
 from .ir import Span
 
+# Deeper than any scene needs (SOLID > SURFACE > TEXTURE > CHECKER > TRANSFORM), and less than Python's stack allows.
+DEEPEST = 40
+
 
 class Number(NamedTuple):
     """A numeral; its value is NaN where it could not be read as one."""

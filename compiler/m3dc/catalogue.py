@@ -131,6 +131,39 @@ CATALOGUE: dict[str, Entry] = {
         "SOLID { SPHERE { RADIUS -1 } }\n" * 10_001,
         "SOLID { SPHERE { RADIUS 1 } }",
     ),
+    "M3D0116": _error(
+        "Not a comment",
+        "A comment stands between /* and */, and comments nest. There are none that end with the line.",
+        "SOLID { SPHERE { } } // a ball",
+        "SOLID { SPHERE { } } /* a ball */",
+    ),
+    "M3D0117": _error(
+        "Superfluous {}",
+        "A keyword is followed by its value, and a statement by the next one, with nothing between them. Only declarations "
+        "end with a semicolon, and only assignments have an equals sign.",
+        "SOLID { SPHERE { RADIUS = 2; } };",
+        "SOLID { SPHERE { RADIUS 2 } }",
+    ),
+    "M3D0118": _error(
+        "There are no expressions",
+        "Nothing is calculated in a scene: a number is a numeral or the name of a NUMBER variable. A sign belongs to a "
+        "numeral and stands right before it.",
+        "SOLID { SPHERE { RADIUS 2 * 3 } }",
+        "SOLID { SPHERE { RADIUS 6 } }",
+    ),
+    "M3D0119": _error(
+        "Invisible character",
+        "A character looks like a blank, or like nothing, and is none: a no-break space or a zero-width space, as word "
+        "processors and web pages have them.",
+        "SOLID { SPHERE {\u00a0RADIUS 2 } }",
+        "SOLID { SPHERE { RADIUS 2 } }",
+    ),
+    "M3D0120": _warning(
+        "Directive without effect",
+        "A comment `/* m3d: allow CODE, CODE */` keeps warnings and hints back, by their codes. Errors can not be kept back.",
+        f"{_LIT} SOLID {{ SPHERE {{ }} }} /* m3d: alow M3D0512 */",
+        f"{_LIT} SOLID {{ SPHERE {{ }} }} /* m3d: allow M3D0512 */",
+    ),
     # --- names ------------------------------------------------------------------------------------------------------
     "M3D0201": _error(
         "Variable already defined",

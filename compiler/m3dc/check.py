@@ -10,21 +10,25 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tree_sitter_m3d import Stop, read_table
 from tree_sitter_m3d import table as language
 from tree_sitter_m3d.table import LANGUAGE
 
-from . import ast, program
+from . import ast, numerals, program
 from .cut import cut
 from .diagnostics import Findings, Fix, Related
 from .ir import Span
 from .memo import Ledger, Steps
 from .near import Words
 from .source import Source
-from .spelling import is_certain, nearest
-from .syntax import with_digits
+from .spelling import certain, nearest
+from .table_faults import layout_of, table_fault
+from .words import CAPITALS, place_of, statement_of, takes
+
+if TYPE_CHECKING:
+    from .syntax import Syntax
 
 # The members of every block that is a variable type: what the body of an assignment may hold when the type of its
 # variable is not known.
@@ -50,7 +54,7 @@ _SHAPE_CODE = {"vector": "M3D0102", "number": "M3D0103", "integer": "M3D0103"}
 class Known(NamedTuple):
     """What is known of a variable, or, by its keyword, of a block that a file has once: its type, where it is declared,
     and what was done with it. A number or vector is `unknown` when its last assignment was wrong: no more is said of
-    it."""
+    it. Nor is of a variable whose type is "": what its declaration says could not be read."""
 
     type: str
     place: Span
@@ -63,14 +67,20 @@ class Checker:
     """Walks the items of one scene in file order. With `names=False` it checks form alone: that is what the formal
     grammar can tell, which knows no declarations."""
 
-    def __init__(self, source: Source, findings: Findings, *, names: bool = True) -> None:
+    def __init__(
+        self, source: Source, findings: Findings, *, names: bool = True, lost: frozenset[str] = frozenset()
+    ) -> None:
         self._data = source.data
         self._findings = findings
         self._names = names
         self._start = 0
+        self._said_count = False  # of the current block, that a table lacks its count
+        self._around: list[str] = []  # keywords of the blocks around a member, outermost first
         self.known: Ledger[Known] = Ledger()
         self._words = Words(())
         self._words_known = 0
+        for name in lost:
+            self.known[_lost(name)] = Known("", (0, 0))
 
     def item(self, top: ast.TopLevel) -> program.Content | None:
         """One top-level item; None where nothing of it can be used."""
@@ -87,7 +97,7 @@ class Checker:
             case ast.Block() if item.keyword.text in LANGUAGE.top:
                 return self._block(item, LANGUAGE.blocks[item.keyword.text], {})
             case _:
-                self._findings.add("M3D0107", item.keyword.span, self._misplaced(item.keyword.text))
+                self._findings.add("M3D0107", item.keyword.span, place_of(item.keyword.text, ()))
                 return None
 
     # --- variables ----------------------------------------------------------------------------------------------
@@ -96,15 +106,11 @@ class Checker:
         if self._names:
             self._only_once("VARIABLES", item.keyword.span, LANGUAGE.variables["once"], None)
         declared: list[program.Declaration] = []
+        self._wrong_types([declaration.type for declaration in item.declarations])
         for declaration in item.declarations:
             type_ = declaration.type.text
             if type_ not in LANGUAGE.types:
-                near = nearest(type_, LANGUAGE.types)
-                hint = f"; did you mean {near}?" if near else f"; the types are {', '.join(LANGUAGE.types)}"
-                certain = near is not None and is_certain(type_, near, LANGUAGE.types)
-                fix = Fix(f"Replace with {near}", declaration.type.span, near, certain) if near else None
-                self._findings.add("M3D0109", declaration.type.span, f"{type_} is not a type{hint}", fix=fix)
-                continue
+                type_ = certain(type_, LANGUAGE.types) or ""
             for number, name in enumerate(declaration.names):
                 before = self.known.get(name.text)
                 if before is not None and self._names:
@@ -114,9 +120,43 @@ class Checker:
                     fix = Fix(f"Remove this {name.text}", again, "", certain=True) if again else None
                     self._findings.add("M3D0201", name.span, detail, related=related, fix=fix)
                     continue
-                self.known[name.text] = Known(type_, self._findings.absolute(name.span))
-                declared.append(program.Declaration(name, type_))
+                wrong = type_ != declaration.type.text
+                lost = type_ in LANGUAGE.basics and self.known.get(_lost(name.text)) is not None
+                place = self._findings.absolute(name.span)
+                self.known[name.text] = Known(type_, place, assigned=lost or wrong, used=wrong, unknown=lost)
+                if type_:
+                    declared.append(program.Declaration(name, type_))
         return tuple(declared)
+
+    def _wrong_types(self, types: list[ast.Keyword | ast.Name]) -> None:
+        """Report what is no type; of those that only lack capitals the first, with a fix for all."""
+        wrong = [type_ for type_ in types if type_.text not in LANGUAGE.types]
+        small = [type_ for type_ in wrong if type_.text.upper() in LANGUAGE.types]
+        for type_ in wrong:
+            near = certain(type_.text, LANGUAGE.types)
+            fix = Fix(f"Replace with {near}", type_.span, near, certain=True) if near else None
+            if type_ in small:
+                if type_ is not small[0]:
+                    continue
+                says = f"did you mean {near}? {CAPITALS}"
+                fix = self._in_capitals(small)
+            elif near is not None or (near := nearest(type_.text, LANGUAGE.types)) is not None:
+                says = f"did you mean {near}?"
+            else:
+                says = f"the types are {', '.join(LANGUAGE.types)}"
+            self._findings.add("M3D0109", type_.span, f"{type_.text} is not a type; {says}", fix=fix)
+
+    def _in_capitals(self, words: list[ast.Keyword | ast.Name]) -> Fix | None:
+        """The fix that writes some words of the item in capitals."""
+        (start, _), (_, end) = words[0].span, words[-1].span
+        text = bytearray(self._data[start + self._start : end + self._start])
+        for word in words:
+            text[word.span[0] - start : word.span[1] - start] = word.text.upper().encode()
+        places = f" ({len(words)} places)" if len(words) > 1 else ""
+        try:
+            return Fix(f"Write {words[0].text.upper()}{places}", (start, end), text.decode(), certain=True)
+        except UnicodeDecodeError:
+            return None
 
     def _without(self, declaration: ast.Declaration, number: int) -> Span:
         """What to cut out so that a declaration lacks one of its names, or is gone with its only one."""
@@ -147,28 +187,32 @@ class Checker:
         if first == place:
             return True
         related = (Related(first, "the first one is here"),)
-        self._findings.add("M3D0301", span, "only the first one counts", fill=message, related=related)
+        detail = "only the first one counts" if keyword != "VARIABLES" else "all declarations stand in the first one"
+        self._findings.add("M3D0301", span, detail, fill=message, related=related)
         return False
 
     def _variables_known(self) -> Iterator[tuple[str, Known]]:
-        return ((name, known) for name, known in self.known.items() if name not in LANGUAGE.keywords)
+        return ((name, known) for name, known in self.known.items() if name.isidentifier() and name not in _KEYWORDS)
 
     def _near(self, name: str) -> str | None:
         """The variable that a name was probably meant to be."""
         entries = self.known.items()
         if len(self.known) != self._words_known:  # names are only ever added
             self._words_known = len(self.known)
-            self._words = Words(other for other, _ in entries if other not in LANGUAGE.keywords)
+            self._words = Words(other for other, _ in entries if other.isidentifier() and other not in _KEYWORDS)
         return self._words.nearest(name)
 
     def _lookup(self, name: ast.Name) -> Known | None:
         """What is known of a variable; reports an undeclared name."""
         known = self.known.get(name.text)
-        if known is None:
+        if known is None and self.known.get(_lost(name.text)) is None:
             near = self._near(name.text)
             if near is not None:
                 detail = f"{name.text} is not declared before here; did you mean {near}?"
                 fix = Fix(f"Replace with {near}", name.span, near)  # or it is a name that is yet to be declared
+                # It is not unused, nor without a value, because its name is misspelt.
+                meant = self.known[near]
+                self.known[near] = meant._replace(assigned=True, used=True, unknown=meant.type in LANGUAGE.basics)
             else:
                 detail, fix = f"{name.text} is not declared in a VARIABLES block before here", None
             self._findings.add("M3D0202", name.span, detail, fix=fix)
@@ -179,6 +223,8 @@ class Checker:
             return True
         known = self._lookup(name)
         if known is None:
+            return False
+        if not known.type:
             return False
         related = (Related(known.place, "declared here"),)
         if known.type != wanted:
@@ -195,7 +241,7 @@ class Checker:
         """Report the variables that nothing has used, after the last item."""
         self._findings.base = 0
         for name, known in self._variables_known():
-            if not known.used:
+            if not known.used and known.type:
                 self._findings.add("M3D0503", known.place, f"nothing uses {name}")
 
     def _assignment(self, item: ast.Assignment) -> program.Assignment | None:
@@ -210,7 +256,7 @@ class Checker:
             self.known[item.target.text] = known._replace(assigned=True, unknown=target in LANGUAGE.basics)
         block = LANGUAGE.blocks.get(target or "")
         body, broken = (None, _NONE) if item.body is None else self._members(item.body, block or ANY_BODY)
-        if target is None:
+        if not target:
             return None
         if isinstance(value, ast.Name):
             if value.text == item.target.text:
@@ -273,13 +319,18 @@ class Checker:
         broken: set[str] = set()
         seen: dict[str, Span] = {}
         standing: dict[str, list[Span]] = {}
+        said: set[str] = set()
+        self._around.append(block.keyword)
+        self._said_count = False
         for item in body.items:
-            member = self._member(item, block, seen)
+            member = self._member(item, block, seen, said)
             if member is not None:
                 members.append(member)
                 self._weigh(member, block, standing)
             elif not isinstance(item, ast.Assignment):
                 broken.add(item.keyword.text)
+        self._around.pop()
+        self._said_count = False
         return tuple(members), frozenset(broken)
 
     def _weigh(self, member: program.Member, block: language.Block, standing: dict[str, list[Span]]) -> None:
@@ -300,7 +351,10 @@ class Checker:
                 self._findings.add("M3D0523", member.keyword.span, detail, fill=keyword, related=related)
             before.append(member.span)
 
-    def _member(self, item: ast.Item, block: language.Block, seen: dict[str, Span]) -> program.Member | None:
+    def _member(
+        self, item: ast.Item, block: language.Block, seen: dict[str, Span], said: set[str]
+    ) -> program.Member | None:
+        """One member, if it is right. What belongs into another block is reported once for all that does: `said`."""
         match item:
             case ast.Statement() if item.keyword.text in block.statements:
                 return self._statement(item, block.statements[item.keyword.text], block)
@@ -311,7 +365,11 @@ class Checker:
             case ast.Assignment():
                 self._invalid(block, item.target.span, "variables are assigned to outside of all blocks")
             case _:
-                self._invalid(block, item.keyword.span, self._wrong_form(item, block))
+                detail = self._wrong_form(item, block)
+                _, stands, place = detail.partition(" stands in ")
+                if not stands or place not in said:
+                    self._invalid(block, item.keyword.span, detail)
+                said.add(place)
         return None
 
     def _invalid(self, block: language.Block, span: Span, detail: str, fix: Fix | None = None) -> None:
@@ -324,18 +382,10 @@ class Checker:
         """Why an item does not belong: wrong keyword, or the right keyword in another form."""
         keyword = item.keyword.text
         if keyword in block.statements:
-            return f"{keyword} takes {_takes(block.statements[keyword])} here, not a block"
+            return f"{keyword} {takes(block.statements[keyword])} here, not a block"
         if keyword in block.tables or keyword in block.holds:
             return f"{keyword} takes a block in braces here"
-        return self._misplaced(keyword)
-
-    def _misplaced(self, keyword: str) -> str:
-        if keyword in LANGUAGE.reserved:
-            return f"{keyword} is reserved, but has no meaning"
-        if keyword in LANGUAGE.top:
-            return f"{keyword} stands at the top level of the file"
-        parents = LANGUAGE.parents.get(keyword, ())
-        return f"{keyword} stands in {', '.join(parents)}" if parents else f"{keyword} can not stand here"
+        return place_of(keyword, self._around)
 
     def _statement(
         self, item: ast.Statement, entry: language.Statement, block: language.Block
@@ -345,13 +395,12 @@ class Checker:
         for expected, argument in zip(wanted, given, strict=False):
             good &= self._argument(argument, expected)
         if len(given) > len(wanted):
-            gone = (item.keyword.span[1], given[-1].span[1])
-            fix = Fix(f"Write {entry.keyword} alone", gone, "", _is_on(given)) if entry.is_flag else None
-            self._invalid(block, given[len(wanted)].span, f"{entry.keyword} takes {_takes(entry)}", fix)
+            fix = self._flag_alone(item) if entry.is_flag else None
+            self._invalid(block, given[len(wanted)].span, f"{entry.keyword} {takes(entry)}", fix)
             return None
         if len(given) < len(wanted):
             missing = wanted[len(given)]
-            detail = f"{entry.keyword} takes {_takes(entry)}; the {missing.name} is missing"
+            detail = f"{entry.keyword} {takes(entry)}; the {missing.name} is missing"
             end = given[-1].span[1] if given else item.keyword.span[1]
             if given and missing.shape != "vector":
                 self._findings.add("M3D0101", (end, end), detail, fill=",")
@@ -359,6 +408,14 @@ class Checker:
                 self._findings.add(_SHAPE_CODE[missing.shape], item.keyword.span, detail)
             return None
         return program.Statement(entry, given, item.span) if good else None
+
+    def _flag_alone(self, item: ast.Statement) -> Fix | None:
+        """The fix of a flag with an argument that says whether it is meant."""
+        start, end = item.keyword.span[1], item.arguments[-1].span[1]
+        said = self._data[start + self._start : end + self._start].strip().lower()
+        if said in _YES:
+            return Fix(f"Write {item.keyword.text} alone", (start, end), "", certain=True)
+        return Fix(f"Leave {item.keyword.text} out", self._cut(item.span), "", certain=True) if said in _NO else None
 
     def _argument(self, argument: ast.Argument, expected: language.Argument) -> bool:
         match argument:
@@ -395,15 +452,25 @@ class Checker:
         head, row = _layout(entry.head), _layout(entry.row)
         data = read_table(self._data, bulk[0] + self._start, bulk[1] + self._start, head, row)
         if data.stop is not None:
-            self._table_stop(entry, data.stop, item.span[1] - 1)
+            self._table_stop(entry, data.stop, bulk, item.span[1] - 1)
         broken = data.stop is not None
         return program.Table(entry, data, self._start, (), (), item.keyword, item.span, broken)
 
-    def _table_stop(self, entry: language.Table, stop: Stop, end: int) -> None:
+    def _table_stop(self, entry: language.Table, stop: Stop, bulk: Span, end: int) -> None:
+        fault = table_fault(entry, self._data, bulk[0] + self._start, bulk[1] + self._start)
+        if fault is not None and stop.expected not in ("digit", "space", "*/"):
+            start, stop_ = fault.span[0] - self._start, fault.span[1] - self._start
+            fix = fault.fix and fault.fix._replace(
+                span=(fault.fix.span[0] - self._start, fault.fix.span[1] - self._start)
+            )
+            if not (fault.uncounted and self._said_count):
+                self._findings.add("M3D0103", (start, stop_), fault.detail, fix=fix)
+            self._said_count = self._said_count or fault.uncounted
+            return
         start = min(stop.offset - self._start, end)
         code, fill = _STOP_CODE.get(stop.expected, ("M3D0101", stop.expected))
         fix = self._digit_added(start) if stop.expected == "digit" else None
-        self._findings.add(code, (start, start + 1), _table_detail(entry), fill=fill, fix=fix)
+        self._findings.add(code, (start, start + 1), layout_of(entry), fill=fill, fix=fix)
 
     def _digit_added(self, place: int) -> Fix | None:
         """The fix for a numeral in a table that lacks a digit at a place of the item."""
@@ -413,16 +480,20 @@ class Checker:
         assert before is not None
         assert after is not None
         text = before[0] + after[0]
-        mended = with_digits(text)
+        mended = numerals.mend(text)
         start = place - len(before[0])
         return None if mended is None else Fix(f"Write {mended}", (start, start + len(text)), mended, certain=True)
 
     def _short(self, item: ast.Table, entry: language.Table, missing: language.Argument) -> program.Table:
         """A table whose last row is not whole."""
         end = item.span[1]
-        self._findings.add(_SHAPE_CODE[missing.shape], (end - 1, end), _table_detail(entry))
+        self._findings.add(_SHAPE_CODE[missing.shape], (end - 1, end), layout_of(entry))
         return program.Table(entry, None, 0, (), (), item.keyword, item.span, broken=True)
 
+
+# What people write after a flag.
+_YES = frozenset((b"1", b"on", b"true", b"yes"))
+_NO = frozenset((b"0", b"off", b"false", b"no"))
 
 _NUMERAL = re.compile(rb"[^\s<>,{}]*")
 _NUMERAL_END = re.compile(rb"[^\s<>,{}]*\Z")
@@ -436,11 +507,6 @@ _STOP_CODE = {
     "<": ("M3D0102", ""),
     "*/": ("M3D0105", ""),
 }
-
-
-def statement_of(block: str) -> str:
-    """What the thesis calls a statement of a block: those of all textures alike."""
-    return "TEXTURE Info" if block in LANGUAGE.blocks["TEXTURE"].holds else block
 
 
 def _overwrites(member: program.Member, block: language.Block) -> bool:
@@ -463,11 +529,6 @@ def _is_known(number: ast.Number) -> bool:
     return not math.isnan(number.value)
 
 
-def _is_on(given: tuple[ast.Argument, ...]) -> bool:
-    """Whether what stands after a flag says what the flag says alone."""
-    return len(given) == 1 and isinstance(given[0], ast.Number) and given[0].value == 1
-
-
 def _each(checks: Iterable[bool]) -> bool:
     """Whether all are true, but every one is made, so that every one reports."""
     return sum(not check for check in checks) == 0
@@ -475,18 +536,6 @@ def _each(checks: Iterable[bool]) -> bool:
 
 def _layout(arguments: tuple[language.Argument, ...]) -> str:
     return "".join("v" if argument.shape == "vector" else "n" for argument in arguments)
-
-
-def _takes(entry: language.Statement) -> str:
-    if entry.is_flag:
-        return "no argument"
-    return ", ".join(f"a {a.name.replace('_', ' ')} ({a.shape})" for a in entry.arguments)
-
-
-def _table_detail(entry: language.Table) -> str:
-    row = " ".join(f"<{a.name}>" if a.shape == "vector" else a.name for a in entry.row).replace("_", " ")
-    head = " ".join(a.name for a in entry.head)
-    return f"{entry.keyword} holds {head + ' and then ' if head else ''}rows of {row}"
 
 
 def structural_faults(source: Source) -> list[str]:
@@ -500,8 +549,7 @@ def structural_faults(source: Source) -> list[str]:
     for item in syntax.items:
         checker.item(item)
     errors = [diagnostic.code for diagnostic in findings.found if diagnostic.severity == "error"]
-    found = [code for code in errors if code not in _NOT_FORM]
-    return found or (["M3D0107"] if syntax.faulty else [])
+    return [code for code in errors if code not in _NOT_FORM]
 
 
 # An empty file, a long name and a huge number are sentences of the grammar all the same.
@@ -511,26 +559,37 @@ _NOT_FORM = {"M3D0110", "M3D0112", "M3D0114"}
 def check(
     source: Source,
     items: Iterable[ast.TopLevel],
-    faulty: frozenset[int],
+    syntax: Syntax,
     findings: Findings,
     steps: Steps | None = None,
 ) -> Iterator[program.Item]:
-    """All items of a scene in file order, each checked when it is asked for.
+    """All items of a scene in file order, each checked when it is asked for; `items` are those of the `syntax`.
 
-    In a faulty item only what is certain is reported: nothing but its names. With the `steps` of a run before, an item
-    is checked only if it or what is known of its names has changed.
+    Of a doubtful item nothing is reported. With the `steps` of a run before, an item is checked only if it or what is
+    known of its names has changed.
     """
-    checker = Checker(source, findings)
+    checker = Checker(source, findings, lost=syntax.names)
     for item in items:
         before = len(findings.found)
         if steps is None:
             content = checker.item(item)
         else:
             content = steps.do(item.base, item.item, partial(checker.item, item), findings, checker.known)
-        if item.start in faulty:
+        if item.start in syntax.doubtful:
             del findings.found[before:]
+        elif syntax.broken:
+            # What could not be read may have given a variable its value.
+            findings.found[before:] = [found for found in findings.found[before:] if found.code != "M3D0504"]
         if content is not None:
             yield program.Item(item.start, item.base, content)
-    if not faulty:
+    if not syntax.broken:
         checker.report_unused()
     findings.base = 0
+
+
+_KEYWORDS = LANGUAGE.keywords
+
+
+def _lost(name: str) -> str:
+    """The key of what is known of a name that a broken part of the text may declare or assign to."""
+    return f"{name}?"

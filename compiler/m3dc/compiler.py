@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeVar
 from .check import check
 from .collection import paused
 from .diagnostics import Diagnostic, Findings
-from .directives import without_allowed
+from .directives import without_allowed, wrong_directives
 from .evaluate import Evaluator
 from .ir import SceneIR
 from .lint import lint
@@ -47,7 +47,7 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     findings = Findings()
     syntax = parse(source, findings)
     program: list[Item] = []
-    world = Evaluator(findings).run(noted(check(source, syntax.items, syntax.faulty, findings), program), syntax.faulty)
+    world = Evaluator(findings).run(noted(check(source, syntax.items, syntax, findings), program), syntax.unfinished)
     ir = lower(world, source.name, Places())
     if not has_errors(findings.found):
         lint(world, program, findings)
@@ -68,7 +68,7 @@ def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
 
 def in_order(diagnostics: Iterable[Diagnostic], source: Source) -> tuple[Diagnostic, ...]:
     """Each diagnostic once, in the order of the text, but for those that the text allows."""
-    found = sorted(dict.fromkeys(diagnostics), key=lambda diagnostic: diagnostic.span)
+    found = sorted(dict.fromkeys([*diagnostics, *wrong_directives(source)]), key=lambda diagnostic: diagnostic.span)
     return tuple(without_allowed(_with_cause(found), source))
 
 

@@ -82,11 +82,11 @@ class Evaluator:
         self._memory: Steps | None = None
 
     @np.errstate(all="ignore")  # what is not finite is looked for where a matrix is made, and where things are placed
-    def run(self, items: Iterable[program.Item], faulty: frozenset[int], steps: Steps | None = None) -> World:
+    def run(self, items: Iterable[program.Item], unfinished: frozenset[int], steps: Steps | None = None) -> World:
         """The scene that the items describe, as far as it goes; what is wrong with their values goes to findings.
 
-        Of the items that start at a `faulty` byte, which are not whole, nothing is reported. With the `steps` of a run
-        before, an item is run only if it or a variable that it uses has changed, and so is what is in it.
+        Of the items that start at an `unfinished` byte, which may not be whole, nothing is reported. With the `steps`
+        of a run before, an item is run only if it or a variable that it uses has changed, and so is what is in it.
         """
         self._memory = steps
         made: list[Made] = []
@@ -100,7 +100,7 @@ class Evaluator:
             before = len(self._findings.found)
             step = self._once(item.base, content, partial(self._item, content))
             made.append(step)
-            if item.start in faulty:
+            if item.start in unfinished:
                 del self._findings.found[before:]
             if size.excess is not None:
                 continue

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 from tree_sitter import Node
 
+from .ast import DEEPEST
 from .catalogue import CATALOGUE
 from .ir import Span
-from .syntax import DEEPEST
 
 COMMENT = "comment"
 ROWS = "rows"

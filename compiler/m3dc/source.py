@@ -21,12 +21,14 @@ class Position(NamedTuple):
 class Source:
     """The text of one scene. Offsets everywhere in the compiler are byte offsets into `data`.
 
-    A UTF-8 byte order mark is read as white space, so that offsets stay those of the file.
+    A UTF-8 byte order mark is read as white space, so that offsets stay those of the file; it is no character of the
+    first line.
     """
 
     def __init__(self, data: bytes, name: str = "") -> None:
-        if data.startswith(BYTE_ORDER_MARK):
-            data = b"   " + data[3:]
+        self._begin = len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
+        if self._begin:
+            data = b" " * self._begin + data[self._begin :]
         self.data = data
         self.name = name
 
@@ -43,12 +45,12 @@ class Source:
     def position(self, offset: int) -> Position:
         """Line and column of the character at a byte offset, which may be the end of the text."""
         line = int(np.searchsorted(self._line_starts, offset, side="right"))
-        start = int(self._line_starts[line - 1])
+        start = max(int(self._line_starts[line - 1]), self._begin)
         return Position(line, len(self.data[start:offset].decode("utf-8", "replace")) + 1)
 
     def line(self, number: int) -> str:
         """The text of a line, counted from 1, without its end."""
-        start = int(self._line_starts[number - 1])
+        start = max(int(self._line_starts[number - 1]), self._begin)
         end = int(self._line_starts[number]) if number < len(self._line_starts) else len(self.data)
         return self.data[start:end].decode("utf-8", "replace").rstrip("\r\n")
 

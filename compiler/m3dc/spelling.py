@@ -20,15 +20,16 @@ def nearest(word: str, known: Collection[str]) -> str | None:
     return next(iter(get_close_matches(word.upper(), sorted(known), 1, _ALIKE)), None)
 
 
-def is_certain(word: str, meant: str, known: Collection[str]) -> bool:
-    """Whether a word can only be the keyword `meant`, of those known here: it is that in small letters, or is one slip
-    away from it, and from no other, and has no meaning of its own elsewhere."""
+def certain(word: str, known: Collection[str]) -> str | None:
+    """The keyword that a word can only be, of those known here: it is that in small letters, or is one slip away from
+    it, and from no other, and has no meaning of its own elsewhere. None where there is none."""
     upper = word.upper()
-    if upper == meant:
-        return True
+    if upper in known:
+        return upper
     if len(word) < _SHORTEST or upper in LANGUAGE.keywords:
-        return False
-    return [other for other in known if _is_one_slip(upper, other)] == [meant]
+        return None
+    found = [other for other in known if _is_one_slip(upper, other)]
+    return found[0] if len(found) == 1 else None
 
 
 def _is_one_slip(word: str, other: str) -> bool:

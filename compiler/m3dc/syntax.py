@@ -1,15 +1,15 @@
 """From text to syntax tree: `parse` takes any text and gives the items that can be read, and what is wrong in form.
 
-tree-sitter builds the tree, whatever the text. Where it met an error, the formal grammar is run over that stretch to
-say exactly where the text stops being a sentence, and what could stand there (syntax_errors.py).
+tree-sitter builds the tree, whatever the text. A stretch in which it met an error is read again, item by item, to say
+what is wrong and what was probably meant (recovery.py).
 """
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
 
@@ -17,26 +17,25 @@ import tree_sitter_m3d
 from tree_sitter_m3d.comments import outermost
 from tree_sitter_m3d.table import LANGUAGE
 
-from . import ast, long_tables
-from .diagnostics import Diagnostic, Findings, Fix
+from . import ast, long_tables, numerals
+from .diagnostics import Diagnostic, Findings, Related
 from .difference import Difference
 from .ir import Span
 from .places import REACH, Places
 from .source import Source
 
-# Deeper than any scene needs (SOLID > SURFACE > TEXTURE > CHECKER > TRANSFORM), and less than Python's stack allows.
-DEEPEST = 40
+if TYPE_CHECKING:
+    from .recovery import Read
 
 _GRAMMAR = Language(tree_sitter_m3d.language())
-_NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
-_LEADING_POINT = re.compile(rb"^([+-]?)\.")
-_BARE_POINT = re.compile(rb"(\.)(?![0-9])")
+_COMMENT_MARK = re.compile(rb"/\*|\*/")
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 
 
 # Diagnostics after which a text is given up: it is no scene, and nobody reads more.
 MOST_FOUND = 10_000
 MOST_FAULTS = 200  # of form, which are dearer to explain
+MOST_CONTROL = 8  # characters that no text holds
 
 # A text of which, long tables aside, so many bytes are judged by its head first.
 VERY_LONG = 4_000_000
@@ -47,47 +46,82 @@ _LOOSE = ("identifier", "number")
 
 class Syntax(NamedTuple):
     """A parsed scene: its concrete tree, and the top-level items as abstract ones, made as they are asked for.
-    `faulty` are the starts of the items that hold a syntax error and so may be incomplete."""
+
+    `faulty` are the starts of the nodes that stand in a stretch with a syntax error, `doubtful` those of the items that
+    may be incomplete, and `unfinished` of those too of which a block is not closed; `names` may be declared or assigned
+    to in one. `broken`: something is wrong in the form.
+    """
 
     tree: Tree
     items: Iterator[ast.TopLevel]
-    faulty: frozenset[int]
+    faulty: frozenset[int] = frozenset()
+    doubtful: frozenset[int] = frozenset()
+    unfinished: frozenset[int] = frozenset()
+    names: frozenset[str] = frozenset()
+    broken: bool = True
 
 
 def parse(source: Source, findings: Findings, before: Parsed | None = None) -> Syntax:
     """Read a scene. Never raises on any text; what is wrong goes into `findings`. What was `before`, the text parsed
     last, and has not changed is used again."""
-    outside = long_tables.outside(source.data)
-    head = _hopeless_head(source.data, outside)
+    data = source.data
+    outside = long_tables.outside(data)
+    head = _hopeless_head(data, outside)
     if head is not None:
         return parse(Source(head, source.name), findings)
-    tree = _tree(source.data, outside) if before is None else before.tree(source.data, outside)
-    control = _find_control(source.data, outside)
-    if control is not None:
-        found = f"it holds the byte {source.data[control]:#04x}"
-        findings.add("M3D0113", (control, control + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
-        return Syntax(tree, iter(()), frozenset())
-    unclosed = _unclosed_comment(source.data, outside)
+    tree = _tree(data, outside) if before is None else before.tree(data, outside)
+    control = _find_control(data, outside)
+    if control:
+        found = f"it holds the byte {data[control[0]]:#04x}"
+        findings.add("M3D0113", (control[0], control[0] + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
+        if len(control) > MOST_CONTROL or data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # the marks of UTF-16
+            return Syntax(tree, iter(()))
+    unclosed = _unclosed_comment(data, outside)
     if unclosed is not None:
-        findings.add("M3D0105", (unclosed, unclosed + 2), "this comment is never closed with */")
-        return Syntax(tree, iter(()), frozenset())
-    if all(node.type == "comment" for node in tree.root_node.children):
+        _report_unclosed_comment(data, unclosed, findings)
+    elif all(node.type == "comment" for node in tree.root_node.children):
         findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
     if not tree.root_node.has_error:
-        return Syntax(tree, _items(tree, source.data, findings, before), frozenset())
+        whole = _Items(tree.root_node.children, ())
+        return Syntax(tree, _items(whole, data, findings, before), broken=bool(findings.found))
 
-    from . import syntax_errors
+    from .recovery import recover
 
-    text = syntax_errors.plain(source.data, tree.root_node)
-    data = syntax_errors.mend_braces(source.data, text, tree.root_node, findings)
-    mended = tree
-    if data is not source.data:
-        mended = _tree(data, long_tables.outside(data))
-        text = syntax_errors.plain(data, mended.root_node)
-    faulty = syntax_errors.report(text, mended.root_node, findings, MOST_FAULTS)
-    if faulty is None:
-        return Syntax(tree, iter(()), frozenset())
-    return Syntax(tree, _items(mended, data, findings, before), faulty)
+    end = len(data) if unclosed is None else unclosed
+    recovered = recover(data, tree.root_node, end, findings, MOST_FAULTS)
+    if recovered is None:
+        place = findings.found[-1].span
+        findings.add("M3D0115", place, f"{MOST_FAULTS} syntax errors up to here")
+        return Syntax(tree, iter(()))
+    if not findings.found:
+        # Nothing that is broken is taken for a scene in silence.
+        place = _first_error(tree.root_node)
+        findings.add("M3D0107", place, "this can not be read here")
+    apart = [
+        node
+        for node in tree.root_node.children
+        if not any(start <= node.start_byte < stop for start, stop in recovered.stretches)
+    ]
+    faulty = {node.start_byte for node in tree.root_node.children} - {node.start_byte for node in apart}
+    doubtful = {read.start for read in recovered.items if read.doubtful}
+    unfinished = {read.start for read in recovered.items if read.doubtful or read.unclosed}
+    items = _items(_Items(apart, recovered.items), data, findings, before)
+    return Syntax(
+        tree, items, frozenset(faulty | doubtful), frozenset(doubtful), frozenset(unfinished), recovered.names
+    )
+
+
+class _Items(NamedTuple):
+    """The top level of a text: `nodes` of the tree that are whole, and what was `read` in between."""
+
+    nodes: list[Node]
+    read: tuple[Read, ...]
+
+    def in_order(self) -> list[Node | Read]:
+        if not self.read:
+            return [*self.nodes]
+        found: list[Node | Read] = [*self.nodes, *self.read]
+        return sorted(found, key=lambda each: each.start_byte if isinstance(each, Node) else each.start)
 
 
 def _hopeless_head(data: bytes, outside: list[Span]) -> bytes | None:
@@ -108,24 +142,51 @@ def _loose_tokens(error: Node) -> int:
     return sum(not node.is_named or node.is_error or node.type in _LOOSE for node in error.children)
 
 
-def _items(tree: Tree, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:
+def _items(whole: _Items, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:
     """The top-level items that can be read, each with spans relative to its start."""
     if before is not None:
         before.begin(data)
-    for node in tree.root_node.children:
-        if node.type == "comment":
+    for each in whole.in_order():
+        if isinstance(each, Node) and each.type == "comment":
             continue
-        findings.base = node.start_byte
+        start = each.start_byte if isinstance(each, Node) else each.start
+        findings.base = start
         if len(findings.found) >= MOST_FOUND:
             found = f"{len(findings.found)} problems up to here; the rest of the text is not looked at"
             findings.add("M3D0115", (0, 1), found)
             return
-        if before is None:
-            base, item = node.start_byte, _Builder(data, findings, node.start_byte).item(node, 0)
+        if not isinstance(each, Node):
+            base, item = start if before is None else before.new_base(start), each.item
+        elif before is None:
+            base, item = start, _Builder(data, findings, start).item(each, 0)
         else:
-            base, item = before.item(node, findings)
+            base, item = before.item(each, findings)
+        findings.base = 0
         if item is not None:
-            yield ast.TopLevel(node.start_byte, base, item)
+            yield ast.TopLevel(start, base, item)
+
+
+def _report_unclosed_comment(data: bytes, start: int, findings: Findings) -> None:
+    """A comment that is never closed, and the one within it that took the end it has, if it has one."""
+    marks = list(_COMMENT_MARK.finditer(data, start + 2))
+    inner = next((mark for mark in marks if mark[0] == b"/*"), None)
+    related: tuple[Related, ...] = ()
+    detail = "this comment is never closed with */"
+    if inner is not None and any(mark[0] == b"*/" for mark in marks):
+        detail += "; comments nest: each /* needs its own"
+        related = (Related(inner.span(), "a comment within it begins here"),)
+    findings.add("M3D0105", (start, start + 2), detail, related=related)
+
+
+def _first_error(root: Node) -> Span:
+    """Where the first node stands that is an error."""
+    node = root
+    while node.type != "ERROR" and not node.is_missing:
+        inner = next((child for child in node.children if child.has_error or child.is_missing), None)
+        if inner is None:
+            break
+        node = inner
+    return node.start_byte, node.end_byte
 
 
 def _tree(data: bytes, outside: list[Span]) -> Tree:
@@ -195,6 +256,13 @@ class Parsed:
         self.places.put(read.base, start)
         return read.base, read.item
 
+    def new_base(self, start: int) -> int:
+        """The base of the places of an item that is not kept, which begins at a byte."""
+        self._count += 1
+        base = self._count * REACH
+        self.places.put(base, start)
+        return base
+
     def _same(self, start: int, end: int) -> _Read | None:
         """What was read of the same stretch of text, or else of one with the same text."""
         difference = self._difference
@@ -227,10 +295,10 @@ def _point(data: bytes, offset: int) -> Point:
     return Point(data.count(b"\n", 0, line), offset - line)
 
 
-def _find_control(data: bytes, outside: list[Span]) -> int | None:
-    """Where the first byte is that no text holds."""
-    matches = (_CONTROL.search(data, start, end) for start, end in outside)
-    return next((match.start() for match in matches if match), None)
+def _find_control(data: bytes, outside: list[Span]) -> list[int]:
+    """Where the first bytes are that no text holds; no more of them than tell a text from what is none."""
+    found = (match.start() for start, end in outside for match in _CONTROL.finditer(data, start, end))
+    return list(islice(found, MOST_CONTROL + 1))
 
 
 def _unclosed_comment(data: bytes, outside: list[Span]) -> int | None:
@@ -266,8 +334,8 @@ class _Builder:
 
     def item(self, node: Node, depth: int) -> ast.Item | None:
         """The item of a node, or None where there is too little of it."""
-        if depth > DEEPEST:
-            self._findings.add("M3D0111", self._span(node), f"no scene needs more than {DEEPEST} levels")
+        if depth > ast.DEEPEST:
+            self._findings.add("M3D0111", self._span(node), f"no scene needs more than {ast.DEEPEST} levels")
             return None
         fields = self._fields(node)
         keyword = self._keyword(fields)
@@ -345,34 +413,4 @@ class _Builder:
                 return None
 
     def _number(self, node: Node) -> ast.Number:
-        text = self._data[node.start_byte : node.end_byte]
-        match = _NUMBER.match(text)
-        end = match.end() if match else 0
-        start, stop = self._span(node)
-        if end < len(text):
-            mended = with_digits(text)
-            fix = Fix(f"Write {mended}", (start, stop), mended, certain=True) if mended else None
-            self._findings.add("M3D0104", (start + end, stop), _digit_detail(text, end), fix=fix)
-            return ast.Number(math.nan, (start, stop))
-        value = float(text)
-        if value in (float("inf"), float("-inf")):
-            self._findings.add("M3D0114", (start, stop), "the largest number is about 1.8e308")
-            value = math.nan
-        return ast.Number(value, (start, stop))
-
-
-def with_digits(text: bytes) -> str | None:
-    """A numeral that lacks a digit beside its point, with a 0 there; None where that makes no numeral of it."""
-    mended = _BARE_POINT.sub(rb"\g<1>0", _LEADING_POINT.sub(rb"\g<1>0.", text))
-    return mended.decode() if mended != text and _NUMBER.fullmatch(mended) else None
-
-
-def _digit_detail(text: bytes, end: int) -> str:
-    """Why a numeral is not one: `text` stops being a numeral at `end`."""
-    shown = text.decode("ascii", "replace")
-    rest = text[end : end + 1]
-    if rest == b"." or end == 0:
-        return f"a digit must stand on both sides of the point in {shown!r}"
-    if rest in b"eE" and text[end + 1 :].strip(b"+-0123456789") == b"":
-        return f"the exponent in {shown!r} has no digits"
-    return f"{shown!r} is not a number; a space must stand between a number and what follows it"
+        return numerals.read(self._data[node.start_byte : node.end_byte], self._span(node), self._findings)

@@ -155,6 +155,7 @@ class Language:
     def __init__(self, table: Mapping[str, Any]) -> None:
         self.limits: Mapping[str, int] = {name: int(most) for name, most in table["limit"].items()}
         self.reserved: tuple[str, ...] = tuple(table["reserved"])
+        self.elsewhere: Mapping[str, str] = table["elsewhere"]
         self.kinds: dict[str, Argument] = {kind: _kind(kind, entry) for kind, entry in table["argument"].items()}
         self.basics: dict[str, Basic] = {
             keyword: Basic(keyword, _default(entry["default"]), entry["says"], entry["thesis"])

@@ -17,7 +17,7 @@ from mutations import mutations
 import m3dc
 from m3dc.catalogue import CATALOGUE
 from m3dc.diagnostics import all_certain
-from m3dc.spelling import is_certain, nearest
+from m3dc.spelling import certain, nearest
 from tree_sitter_m3d.table import LANGUAGE
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
@@ -95,7 +95,7 @@ def misspelt() -> Iterator[tuple[str, str, str]]:
 def test_small_letters_are_certain(block: str, keyword: str, small: str) -> None:
     known = LANGUAGE.blocks[block].members()
     assert nearest(small, known) == keyword
-    assert is_certain(small, keyword, known)
+    assert certain(small, known) == keyword
 
 
 @given(st.data())
@@ -108,10 +108,9 @@ def test_what_is_one_slip_away_from_two_keywords_is_not_certain(data: st.DataObj
     at = data.draw(st.integers(0, len(word) - 1))
     word[at : at + data.draw(st.integers(0, 1))] = data.draw(st.sampled_from(["", "E", "X", "S"]))
     slipped = "".join(word)
-    certain = [meant for meant in known if is_certain(slipped, meant, known)]
-    assert len(certain) <= 1
-    if certain:
-        assert nearest(slipped, known) == certain[0]
+    meant = certain(slipped, known)
+    if meant is not None:
+        assert nearest(slipped, known) == meant
 
 
 @pytest.mark.parametrize(
@@ -133,7 +132,7 @@ def test_what_is_one_slip_away_from_two_keywords_is_not_certain(data: st.DataObj
 )
 def test_words(word: str, block: str, meant: str | None) -> None:
     known = LANGUAGE.blocks[block].members()
-    assert next((keyword for keyword in known if is_certain(word, keyword, known)), None) == meant
+    assert certain(word, known) == meant
 
 
 def test_the_documented_default_can_be_written() -> None:

@@ -58,7 +58,7 @@ def test_an_error_in_a_long_table_is_on_its_place(broken: str, code: str, monkey
 def test_errors_around_long_tables_are_on_their_places(monkeypatch: pytest.MonkeyPatch) -> None:
     text = scene(before="SOLID { SPHERE { RADIUS -1 } }", after="SOLID { SPHERE { RADIUS -2 } SPHERE { RADUIS 3 } }")
     result = assert_same_as_whole(text, monkeypatch)
-    assert [text[slice(*d.span)] for d in result.diagnostics] == ["-1", "RADUIS"]
+    assert [text[slice(*d.span)] for d in result.diagnostics] == ["-1", "-2", "RADUIS"]
     assert (
         result.source.position(result.diagnostics[1].span[0]).line
         == text[: result.diagnostics[1].span[0]].count("\n") + 1

@@ -8,12 +8,14 @@ permissive about which keyword stands where, together with the compiler's check 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 
+from m3dc.catalogue import CATALOGUE
 from m3dc.check import structural_faults
 from m3dc.source import Source
 from tree_sitter_m3d.formal import first_error, parser
@@ -48,7 +50,7 @@ def nearly_sentences(draw: Any) -> str:
 
 
 def agree(text: str) -> None:
-    fault = first_error(text)
+    fault = first_error(text.encode().decode("latin-1"))
     faults = structural_faults(Source(text.encode()))
     assert (fault is None) == (faults == []), f"formal grammar: {fault}; compiler: {faults}"
 
@@ -74,6 +76,35 @@ def test_characters_taken_out_are_judged_alike(text: str, data: st.DataObject) -
     """So that tokens meet without a blank between them."""
     at = data.draw(st.integers(0, len(text)))
     agree(text[:at] + text[at + data.draw(st.integers(1, 3)) :])
+
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+TEXTS = [
+    *(block.example for block in LANGUAGE.blocks.values()),
+    *(text for entry in CATALOGUE.values() for text in (entry.wrong, entry.right) if len(text) < 1000),
+    *((EXAMPLES / f"{name}.m3d").read_text(encoding="utf-8") for name in ("two-balls", "wheel")),
+    "SOLID { SPHERE ball {\n",
+]
+
+
+def test_every_prefix_is_judged_alike() -> None:
+    """A text that breaks off anywhere, in a block or a word: what is no sentence is never accepted in silence."""
+    for text in TEXTS:
+        step = 1 + len(text) // 200
+        for end in range(0, len(text) + 1, step):
+            agree(text[:end])
+
+
+@given(st.sampled_from(TEXTS), st.data())
+def test_changed_texts_are_judged_alike(text: str, data: st.DataObject) -> None:
+    """Real scenes with some tokens taken out, doubled or put in."""
+    tokens = TOKEN.findall(text)
+    at = data.draw(st.integers(0, max(len(tokens) - 60, 0)))
+    tokens = tokens[at : at + 60]
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(tokens)))
+        tokens[at : at + data.draw(st.integers(0, 2))] = data.draw(st.lists(pieces, max_size=2))
+    agree(" ".join(tokens))
 
 
 def test_members_of_every_block() -> None:

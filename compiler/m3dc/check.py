@@ -415,7 +415,7 @@ class Checker:
         said = self._data[start + self._start : end + self._start].strip().lower()
         if said in _YES:
             return Fix(f"Write {item.keyword.text} alone", (start, end), "", certain=True)
-        return Fix(f"Leave {item.keyword.text} out", self._cut(item.span), "", certain=True) if said in _NO else None
+        return Fix(f"Leave {item.keyword.text} out", self._cut(item.span), "") if said in _NO else None
 
     def _argument(self, argument: ast.Argument, expected: language.Argument) -> bool:
         match argument:

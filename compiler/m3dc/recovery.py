@@ -512,6 +512,9 @@ class Reader:
         if token.kind == "{":
             self._open.append(self._next())
             return True
+        if self._cut and token.kind == "end":
+            self._doubtful = True
+            return False
         also = "; the name of a variable could stand here too" if variable else ""
         at = token.span if not token.first and token.kind != "end" else (self._before, self._before)
         self._fault("M3D0101", at, f"{_found(token)}{also}", fill="{")

@@ -102,7 +102,10 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
         for node in tree.root_node.children
         if not any(start <= node.start_byte < stop for start, stop in recovered.stretches)
     ]
-    faulty = {node.start_byte for node in tree.root_node.children} - {node.start_byte for node in apart}
+    whole = {(read.start, read.end) for read in recovered.items if not read.doubtful and not read.unclosed}
+    sound = {node.start_byte for node in apart}
+    sound |= {node.start_byte for node in tree.root_node.children if (node.start_byte, node.end_byte) in whole}
+    faulty = {node.start_byte for node in tree.root_node.children} - sound
     doubtful = {read.start for read in recovered.items if read.doubtful}
     unfinished = {read.start for read in recovered.items if read.doubtful or read.unclosed}
     items = _items(_Items(apart, recovered.items), data, findings, before)

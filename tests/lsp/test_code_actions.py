@@ -431,7 +431,6 @@ UNCERTAIN = (
     "SOLID { SPHERE { } SURFACE { COLOR$0 < 128, 64, 32 > } }\n",
     "SOLID { SPHERE { RADIUS$0 2 RADIUS 3 } }\n",
     "SOLID { SPHERE { } translate$0 <1,0,0> }\n",
-    "solid$0 { SPHERE { } }\n",
     "SOLID { SPHERE { CENTER < 1, eye+$02, 3 > } }\n",
     "SCENE { SHADOWS 0$0 }\n",
     "VARIABLES { NUMBER size; }\nsize = 2\nSOLID { SPHERE { RADIUS sizes$0 } }\n",

@@ -54,7 +54,10 @@ def edited(text: str, chance: random.Random) -> tuple[str, types.TextDocumentCon
 async def known(editor: Editor, scene: Scene) -> tuple[list[types.Diagnostic], Any]:
     """What the server says of a scene: its diagnostics, and its tree, which shows the text."""
     tree = await editor.client.protocol.send_request_async("m3d/syntaxTree", {"textDocument": {"uri": scene.uri}})
-    return await editor.diagnostics(scene), tree.nodes
+    diagnostics = await editor.diagnostics(scene)
+    for place in (place for diagnostic in diagnostics for place in diagnostic.related_information or ()):
+        place.location.uri = ""  # that of the document itself
+    return diagnostics, tree.nodes
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -133,7 +133,8 @@ def _there_already(snapshot: Snapshot, place: Cursor) -> set[str]:
     found: set[str] = set()
     if not place.prefix.opened:
         for top in snapshot.analysis.items:
-            if isinstance(top.item, (ast.Block, ast.Variables)):
+            # What is being typed may be taken for what it is on the way to.
+            if isinstance(top.item, (ast.Block, ast.Variables)) and top.start != place.word[0]:
                 found.add(top.item.keyword.text)
     elif place.block is not None and place.block.keyword == "SCENE":
         for top in snapshot.analysis.items:

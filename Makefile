@@ -11,7 +11,7 @@ EXTENSION := vscode-extension
 # The rest of a recipe's line is left out where there is no node, except in CI.
 NEEDS_NODE := if ! command -v npm > /dev/null; then \
 	echo "The VS Code extension is not looked at: there is no npm (node 20 or newer)."; test -z "$$CI"; exit; fi;
-CARGO_TEST := cargo test --quiet --release --manifest-path renderer/Cargo.toml
+CARGO_TEST := cargo test --quiet --release --workspace --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
@@ -50,8 +50,8 @@ lint: tools ## Check style, types and that generated files are current
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/basedpyright
-	cargo fmt --check --manifest-path renderer/Cargo.toml
-	cargo clippy --quiet --all-targets --manifest-path renderer/Cargo.toml -- -D warnings
+	cargo fmt --all --check --manifest-path renderer/Cargo.toml
+	cargo clippy --quiet --workspace --all-targets --manifest-path renderer/Cargo.toml -- -D warnings
 	$(BIN)/m3dfmt --check examples/*.m3d
 	cd grammar && ../$(BIN)/python -m generate --check
 	@$(MAKE) --no-print-directory lint-extension
@@ -62,7 +62,7 @@ lint-extension: ## Check style and types of the VS Code extension
 format: tools ## Lay out the Python and Rust code
 	$(BIN)/ruff check --fix --quiet
 	$(BIN)/ruff format
-	cargo fmt --manifest-path renderer/Cargo.toml
+	cargo fmt --all --manifest-path renderer/Cargo.toml
 
 viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
 	@echo "Bringing pyvista (700 MB) ..."

@@ -37,6 +37,12 @@ class FormatError(ValueError):
     """A file that is not a readable `.m3ir`; the message says why, for people."""
 
 
+def header(scene: ir.SceneIR) -> str:
+    """The header: a JSON text. Raises ValueError for a value that is not finite."""
+    content = {"format": "m3ir", "version": VERSION, "source": scene.source, "scene": _plain(scene.scene)}
+    return json.dumps(content, allow_nan=False)
+
+
 def write(scene: ir.SceneIR, path: Path) -> None:
     """Write a scene to a file. A failed write leaves the old file. Raises OSError."""
     with replacing(path) as (file,):
@@ -45,16 +51,10 @@ def write(scene: ir.SceneIR, path: Path) -> None:
 
 def write_to(scene: ir.SceneIR, file: BinaryIO) -> None:
     """Write a scene to an open file."""
-    header = {
-        "format": "m3ir",
-        "version": VERSION,
-        "source": scene.source,
-        "scene": _plain(scene.scene),
-    }
     arrays = {
         f"{table}.{column}": values for table, columns in scene.tables.items() for column, values in columns.items()
     }
-    text = np.frombuffer(json.dumps(header, allow_nan=False).encode(), np.uint8)
+    text = np.frombuffer(header(scene).encode(), np.uint8)
     np.savez(file, allow_pickle=False, header=text, **arrays)
 
 
@@ -62,13 +62,13 @@ def read(path: Path) -> ir.SceneIR:
     """Read a scene. Raises OSError, or FormatError for anything but a whole and sound file of this version."""
     with path.open("rb") as file:
         archive = _Archive(file)
-        header = _header(archive)
+        said = _header(archive)
         tables = {
             table: {name: archive.column(f"{table}.{name}", column) for name, column in columns.items()}
             for table, columns in ir.TABLES.items()
         }
     scene = ir.SceneIR(
-        _member(ir.Scene, header.get("scene"), "scene"), tables, _member(str, header.get("source"), "source")
+        _member(ir.Scene, said.get("scene"), "scene"), tables, _member(str, said.get("source"), "source")
     )
     wrong = fault(scene)
     if wrong:
@@ -153,13 +153,13 @@ def _header(archive: _Archive) -> dict[str, Any]:
     if len(text) > LONGEST_HEADER:
         _damaged(f"its header is longer than {LONGEST_HEADER} bytes")
     try:
-        header = json.loads(text)
+        said = json.loads(text)
     except (ValueError, RecursionError) as error:
         _damaged(f"its header is no JSON, {error}")
-    if not isinstance(header, dict) or cast("dict[str, Any]", header).get("format") != "m3ir":
+    if not isinstance(said, dict) or cast("dict[str, Any]", said).get("format") != "m3ir":
         raise FormatError("it is not an .m3ir file")
-    header = cast("dict[str, Any]", header)
-    version = header.get("version")
+    said = cast("dict[str, Any]", said)
+    version = said.get("version")
     if type(version) is not int:
         _damaged("version is not a whole number")
     if version != VERSION:
@@ -167,7 +167,7 @@ def _header(archive: _Archive) -> dict[str, Any]:
             f"its format version is {_shown(version)}, this program reads version {VERSION}; "
             "compile the scene again with m3dc"
         )
-    return header
+    return said
 
 
 def _plain(scene: ir.Scene) -> dict[str, Any]:

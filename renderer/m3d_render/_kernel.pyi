@@ -1,12 +1,12 @@
 """The native kernel. `m3d_render.render` and `m3d_render.optics` are its public faces."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.rendering import Request
-from m3dc.ir import SceneIR
+from m3dc.ir import Table
 
 VERSION: str
 EARTH_RADIUS: float
@@ -20,7 +20,7 @@ class Outcome:
     counts: dict[str, int]
 
 class Scene:
-    def __new__(cls, ir: SceneIR, finer: int) -> Scene: ...
+    def __new__(cls, header: str, tables: Mapping[str, Table], finer: int) -> Scene: ...
     @property
     def observer(self) -> tuple[float, float, float] | None: ...
     def sees(self, points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]: ...
@@ -32,8 +32,10 @@ class Scene:
         tiles: Callable[[int, int, NDArray[np.float32]], object] | None,
     ) -> Outcome: ...
 
-def trace_paths(
-    ir: SceneIR, height: float, slopes: NDArray[np.float64], distances: list[float], finer: int
-) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.uint32], NDArray[np.float64]]: ...
-def trace_crossings(ir: SceneIR, height: float, slope: float, finer: int) -> NDArray[np.float64]: ...
-def air_layers(ir: SceneIR, finer: int) -> NDArray[np.float64]: ...
+class Air:
+    def __new__(cls, header: str, tables: Mapping[str, Table], finer: int) -> Air: ...
+    def layers(self) -> NDArray[np.float64]: ...
+    def paths(
+        self, height: float, slopes: NDArray[np.float64], distances: list[float]
+    ) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.uint32], NDArray[np.float64]]: ...
+    def crossings(self, height: float, slope: float) -> NDArray[np.float64]: ...

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from m3d_render import _kernel
 from m3d_render.rendering import MOST_FINER, SceneError, whole
+from m3dc import m3ir
 from m3dc.ir import SceneIR
 
 
@@ -47,8 +48,8 @@ def trace_paths(
     angles = _angles(angles_rad)
     distances = _numbers([] if at is None else at)
     try:
-        ends, tips, arcs, heights = _kernel.trace_paths(
-            ir, _height(ir, eye_height), np.tan(angles), distances.tolist(), _finer(finer)
+        ends, tips, arcs, heights = _air(ir, finer).paths(
+            _height(ir, eye_height), np.tan(angles), distances.tolist()
         )
     except ValueError as error:
         raise SceneError(str(error)) from None
@@ -75,8 +76,10 @@ EARTH_CURVATURE: float = 1 / _kernel.EARTH_RADIUS
 
 def air_layers(ir: SceneIR, finer: int = 1) -> AirLayers:
     """The layers that rays are traced through, up to the MIRAGE block's ELEVATION; none without a MIRAGE."""
+    if ir.scene.mirage is None:
+        return AirLayers(*np.zeros((4, 0)))
     try:
-        bottom, top, effective = _kernel.air_layers(ir, _finer(finer)).T.copy()
+        bottom, top, effective = _air(ir, finer).layers().T.copy()
     except ValueError as error:
         raise SceneError(str(error)) from None
     return AirLayers(bottom, top, effective + EARTH_CURVATURE, effective)
@@ -88,7 +91,7 @@ def trace_crossings(
     """Every layer crossing of one ray: rows of (distance, height), the eye first and the end last."""
     (angle,) = _angles([angle_rad])
     try:
-        return _kernel.trace_crossings(ir, _height(ir, eye_height), float(np.tan(angle)), _finer(finer))
+        return _air(ir, finer).crossings(_height(ir, eye_height), float(np.tan(angle)))
     except ValueError as error:
         raise SceneError(str(error)) from None
 
@@ -100,8 +103,9 @@ def _angles(radians: Iterable[float]) -> NDArray[np.float64]:
     return angles
 
 
-def _finer(finer: int) -> int:
-    return whole("finer", finer, 1, MOST_FINER)
+def _air(ir: SceneIR, finer: int) -> _kernel.Air:
+    """The kernel's air of a scene. Raises ValueError where it has none."""
+    return _kernel.Air(m3ir.header(ir), dict(ir.tables), whole("finer", finer, 1, MOST_FINER))
 
 
 def _numbers(values: Iterable[float]) -> NDArray[np.float64]:

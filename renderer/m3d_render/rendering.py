@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from m3d_render import _kernel
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
 from m3d_render.picture import png
+from m3dc import m3ir
 from m3dc.ir import SceneIR
 
 Layers: TypeAlias = dict[str, NDArray[np.float32]]
@@ -238,7 +239,7 @@ def prepare(ir: SceneIR, *, finer: int = 1) -> Prepared:
     """Builds the kernel's scene. `finer` divides each interval of the temperature profile into so many layers."""
     started = time.perf_counter()
     try:
-        kernel = _kernel.Scene(ir, whole("finer", finer, 1, MOST_FINER))
+        kernel = _kernel.Scene(m3ir.header(ir), dict(ir.tables), whole("finer", finer, 1, MOST_FINER))
     except ValueError as error:
         raise SceneError(str(error)) from None
     return Prepared(ir, kernel, time.perf_counter() - started)

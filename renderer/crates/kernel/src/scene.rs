@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::bvh::{Bvh, Gathering};
 use crate::camera::Camera;
+use crate::optics::atmosphere::Atmosphere;
 use crate::ray::{ShapeId, ShapeKind};
 use crate::shade::haze::Haze;
 use crate::shade::illumination::{Light, Surface};
@@ -268,13 +269,15 @@ pub struct Ambient {
     pub depth: usize,
 }
 
-/// Everything a picture is made from, but for the atmosphere.
+/// Everything a picture is made from.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub camera: Camera,
     pub background: Background,
     pub ambient: Ambient,
     pub haze: Haze,
+    /// The atmosphere, where there is a MIRAGE.
+    pub air: Option<Atmosphere>,
     pub lights: Vec<Light>,
     pub solids: Vec<Solid>,
     pub shapes: Shapes,

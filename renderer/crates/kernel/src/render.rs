@@ -9,7 +9,6 @@ use crate::bvh::Visit;
 use crate::camera::Size;
 use crate::film::Film;
 use crate::layer::Layer;
-use crate::optics::atmosphere::Atmosphere;
 use crate::optics::crossing::Crossing;
 use crate::optics::path::Path;
 use crate::optics::tip::Tip;
@@ -36,7 +35,8 @@ const DEEPEST: usize = 64;
 const FUZZ: u64 = u64::MAX;
 
 /// What may be asked of a picture of a scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settings {
     pub size: Size,
     /// The part to render: its first column and row, and how many there are.
@@ -44,6 +44,8 @@ pub struct Settings {
     pub top: usize,
     pub columns: usize,
     pub rows: usize,
+    /// Whether rays go straight, whatever the air.
+    pub straight: bool,
     pub shadows: bool,
     /// Level of the last mirror ray; the eye ray is level 1.
     pub depth: usize,
@@ -162,7 +164,6 @@ impl<'a> Tracer<'a> {
     /// `filter` spreads several samples a pixel.
     pub fn new(
         scene: &'a Scene,
-        air: Option<&'a Atmosphere>,
         settings: &'a Settings,
         filter: Option<&'a Filter>,
         cancelled: &'a AtomicBool,
@@ -172,7 +173,11 @@ impl<'a> Tracer<'a> {
             settings,
             filter,
             cancelled,
-            path: air.map(|air| Path::stopped_by(air, cancelled)),
+            path: scene
+                .air
+                .as_ref()
+                .filter(|_| !settings.straight)
+                .map(|air| Path::stopped_by(air, cancelled)),
             stack: Vec::with_capacity(256),
             measures_length: scene.haze.density > 0.0 || settings.layers.contains(&Layer::Path),
             tally: Tally::default(),

@@ -1,7 +1,7 @@
 //! The kernel of the Mirage3D renderer: a ray tracer whose eye rays may be bent by the atmosphere.
 //!
-//! `scene` is what is rendered, `schedule` makes the picture and `render` a pixel of it, `trace` finds what a ray
-//! meets, `optics` bends rays, `python` is the way in.
+//! `scene` is what is rendered, `render` makes a pixel of it, `trace` finds what a ray meets, `optics` bends rays. It
+//! starts no thread and reads no file: who calls it shares out the pixels, and says where scenes come from.
 
 pub mod bvh;
 pub mod camera;
@@ -9,12 +9,10 @@ pub mod film;
 pub mod layer;
 pub mod noise;
 pub mod optics;
-pub mod python;
 pub mod random;
 pub mod ray;
 pub mod render;
 pub mod scene;
-pub mod schedule;
 pub mod shade;
 pub mod shape;
 pub mod supersampling;

@@ -1,7 +1,7 @@
 //! The kernel as a Python module, `m3d_render._kernel`. The package around it checks arguments and explains them;
 //! here only what must be native.
 
-mod ir;
+mod tables;
 
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, channel};
@@ -15,17 +15,20 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::camera::Size;
-use crate::film::Film;
-use crate::layer::Layer;
-use crate::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
-use crate::optics::path::Path;
-use crate::optics::tip::End;
-use crate::ray::Ray;
-use crate::render::{Settings, Tally};
-use crate::scene;
-use crate::schedule::{Canvas, Tile, Watch, render};
-use crate::trace::blocked;
+use m3d_ir::{Ir, Refusal};
+use m3d_kernel::camera::Size;
+use m3d_kernel::film::Film;
+use m3d_kernel::layer::Layer;
+use m3d_kernel::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
+use m3d_kernel::optics::path::Path;
+use m3d_kernel::optics::tip::End;
+use m3d_kernel::ray::Ray;
+use m3d_kernel::render::{Settings, Tally};
+use m3d_kernel::scene;
+use m3d_kernel::trace::blocked;
+use m3d_work::{Canvas, Tile, Watch, render};
+
+use tables::PythonTables;
 
 /// How often the waiting thread looks for an interrupt.
 const LOOK: Duration = Duration::from_millis(40);
@@ -76,6 +79,7 @@ impl Request {
             top,
             columns,
             rows,
+            straight: self.straight,
             shadows: self.shadows,
             depth: self.depth,
             samples: self.samples.max(1),
@@ -100,23 +104,22 @@ struct Outcome {
 
 /// A scene ready to be rendered.
 #[pyclass(frozen)]
-struct Scene {
-    scene: scene::Scene,
-    air: Option<Atmosphere>,
-}
+struct Scene(scene::Scene);
 
 #[pymethods]
 impl Scene {
     #[new]
-    fn new(ir: &Bound<PyAny>, finer: usize) -> PyResult<Self> {
-        Ok(Self { scene: ir::scene(ir)?, air: ir::atmosphere(ir, finer)? })
+    fn new(header: &str, tables: &Bound<PyAny>, finer: usize) -> PyResult<Self> {
+        let tables = PythonTables::of(tables)?;
+        let scene = Ir::new(header, &tables).and_then(|ir| m3d_ir::scene(&ir, finer));
+        scene.map(Self).map_err(refused)
     }
 
     /// The heights between which an observer must stand for a mirage, and the observer's; None without one.
     #[getter]
     fn observer(&self) -> Option<(f64, f64, f64)> {
-        let air = self.air.as_ref()?;
-        Some((air.bottom(), air.profile_top, self.scene.camera.eye.z))
+        let air = self.0.air.as_ref()?;
+        Some((air.bottom(), air.profile_top, self.0.camera.eye.z))
     }
 
     /// Which points the eye sees along straight lines. What is nearer to a point than `tolerance` of its distance
@@ -131,7 +134,7 @@ impl Scene {
         if points.ncols() != 3 {
             return Err(PyValueError::new_err("points have three coordinates"));
         }
-        let (scene, eye) = (&self.scene, self.scene.camera.eye);
+        let (scene, eye) = (&self.0, self.0.camera.eye);
         let points: Vec<DVec3> = points.outer_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
         let sees = |stack: &mut Vec<_>, point: &DVec3| {
             let line = *point - eye;
@@ -158,7 +161,6 @@ impl Scene {
     ) -> PyResult<Outcome> {
         let settings = request.settings()?;
         let (columns, rows, channels) = (settings.columns, settings.rows, settings.channels());
-        let air = if request.straight { None } else { self.air.as_ref() };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(request.threads)
             .build()
@@ -175,7 +177,7 @@ impl Scene {
             let canvas = Canvas { pixels: &mut pixels, layers: &mut layers };
             let work = scope.spawn(|| {
                 let _rings = finished.at_end();
-                pool.install(|| render(&self.scene, air, settings, watch, canvas, sender))
+                pool.install(|| render(&self.0, settings, watch, canvas, sender))
             });
             let mut stopped = Ok(false);
             while !py.detach(|| finished.wait(LOOK)) {
@@ -317,86 +319,98 @@ impl Drop for Ringer<'_> {
     }
 }
 
-/// Ray paths without a picture: for each slope dz/dr from `height`, why the path ended (a number of `END_NAMES`),
-/// where and how steeply (r, z, dz/dr), how many arcs it has, and its heights at the given distances, NaN beyond the end.
-#[pyfunction]
-fn trace_paths<'py>(
-    py: Python<'py>,
-    ir: &Bound<'py, PyAny>,
-    height: f64,
-    slopes: PyReadonlyArray1<'py, f64>,
-    distances: Vec<f64>,
-    finer: usize,
-) -> PyResult<Paths<'py>> {
-    let air = air_around(ir, height, finer)?;
-    let slopes = slopes.as_array();
-    let mut ends = Vec::with_capacity(slopes.len());
-    let mut tips = Vec::with_capacity(3 * slopes.len());
-    let mut arcs = Vec::with_capacity(slopes.len());
-    let mut heights = Vec::with_capacity(slopes.len() * distances.len());
-    let mut path = Path::new(&air);
-    for &slope in slopes {
-        py.check_signals()?;
+/// The air of a scene, for rays without a picture.
+#[pyclass(frozen)]
+struct Air(Atmosphere);
+
+#[pymethods]
+impl Air {
+    #[new]
+    fn new(header: &str, tables: &Bound<PyAny>, finer: usize) -> PyResult<Self> {
+        let tables = PythonTables::of(tables)?;
+        let air = Ir::new(header, &tables).and_then(|ir| m3d_ir::air(&ir, finer)).map_err(refused)?;
+        let none = || PyValueError::new_err("the scene has no MIRAGE, so its rays are straight");
+        Ok(Self(air.ok_or_else(none)?))
+    }
+
+    /// The layers, from the lowest: rows of (bottom, top, curvature of a level ray there, 1/m), positive where it is
+    /// concave toward the earth, over an earth drawn flat.
+    fn layers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let layers = &self.0.layers;
+        let rows: Vec<f64> =
+            layers.iter().flat_map(|layer| [layer.bottom, layer.top, -2.0 * layer.half_bend]).collect();
+        PyArray1::from_vec(py, rows).reshape([layers.len(), 3])
+    }
+
+    /// Ray paths: for each slope dz/dr from `height`, why the path ended (a number of `END_NAMES`), where and how
+    /// steeply (r, z, dz/dr), how many arcs it has, and its heights at the given distances, NaN beyond the end.
+    fn paths<'py>(
+        &self,
+        py: Python<'py>,
+        height: f64,
+        slopes: PyReadonlyArray1<'py, f64>,
+        distances: Vec<f64>,
+    ) -> PyResult<Paths<'py>> {
+        let mut path = self.path(height)?;
+        let slopes = slopes.as_array();
+        let mut ends = Vec::with_capacity(slopes.len());
+        let mut tips = Vec::with_capacity(3 * slopes.len());
+        let mut arcs = Vec::with_capacity(slopes.len());
+        let mut heights = Vec::with_capacity(slopes.len() * distances.len());
+        for &slope in slopes {
+            py.check_signals()?;
+            path.start(height, slope);
+            let tip = path.end_tip();
+            ends.push(end_number(tip.end));
+            tips.extend([tip.r, tip.z, tip.slope]);
+            arcs.push(tip.arcs as u32);
+            let mut arc = 0;
+            for &distance in &distances {
+                let found = path.find(distance, arc).filter(|_| distance >= 0.0);
+                arc = found.unwrap_or(arc);
+                heights.push(found.map_or(f64::NAN, |i| path.arcs()[i].height(distance)));
+            }
+        }
+        let tips = PyArray1::from_vec(py, tips).reshape([slopes.len(), 3])?;
+        let heights = PyArray1::from_vec(py, heights).reshape([slopes.len(), distances.len()])?;
+        Ok((PyArray1::from_vec(py, ends), tips, PyArray1::from_vec(py, arcs), heights))
+    }
+
+    /// Every layer crossing of one path: an array of rows (r, z), the eye first and the end last.
+    fn crossings<'py>(
+        &self,
+        py: Python<'py>,
+        height: f64,
+        slope: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let mut path = self.path(height)?;
         path.start(height, slope);
-        let tip = path.end_tip();
-        ends.push(end_number(tip.end));
-        tips.extend([tip.r, tip.z, tip.slope]);
-        arcs.push(tip.arcs as u32);
-        let mut arc = 0;
-        for &distance in &distances {
-            let found = path.find(distance, arc).filter(|_| distance >= 0.0);
-            arc = found.unwrap_or(arc);
-            heights.push(found.map_or(f64::NAN, |i| path.arcs()[i].height(distance)));
+        let mut points = vec![0.0, height];
+        points.extend(path.keep_all().iter().flat_map(|arc| [arc.r1, arc.z1]));
+        let rows = points.len() / 2;
+        PyArray1::from_vec(py, points).reshape([rows, 2])
+    }
+}
+
+impl Air {
+    /// A path from a height, which must lie within the profile.
+    fn path(&self, height: f64) -> PyResult<Path<'_>> {
+        if self.0.holds(height) {
+            Ok(Path::new(&self.0))
+        } else {
+            Err(PyValueError::new_err(format!(
+                "the observer's height {height} lies outside of the temperature profile, {} to {}",
+                self.0.bottom(),
+                self.0.profile_top
+            )))
         }
     }
-    let tips = PyArray1::from_vec(py, tips).reshape([slopes.len(), 3])?;
-    let heights = PyArray1::from_vec(py, heights).reshape([slopes.len(), distances.len()])?;
-    Ok((PyArray1::from_vec(py, ends), tips, PyArray1::from_vec(py, arcs), heights))
 }
 
-/// Every layer crossing of one path: an array of rows (r, z), the eye first and the end last.
-#[pyfunction]
-fn trace_crossings<'py>(
-    py: Python<'py>,
-    ir: &Bound<'py, PyAny>,
-    height: f64,
-    slope: f64,
-    finer: usize,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let air = air_around(ir, height, finer)?;
-    let mut path = Path::new(&air);
-    path.start(height, slope);
-    let mut points = vec![0.0, height];
-    points.extend(path.keep_all().iter().flat_map(|arc| [arc.r1, arc.z1]));
-    let rows = points.len() / 2;
-    PyArray1::from_vec(py, points).reshape([rows, 2])
-}
-
-/// The layers of the air, from the lowest: rows of (bottom, top, curvature of a level ray there, 1/m), positive where
-/// it is concave toward the earth, over an earth drawn flat. No row without a MIRAGE.
-#[pyfunction]
-fn air_layers<'py>(
-    py: Python<'py>,
-    ir: &Bound<'py, PyAny>,
-    finer: usize,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let layers = ir::atmosphere(ir, finer)?.map_or(Vec::new(), |air| air.layers);
-    let rows: Vec<f64> =
-        layers.iter().flat_map(|layer| [layer.bottom, layer.top, -2.0 * layer.half_bend]).collect();
-    PyArray1::from_vec(py, rows).reshape([layers.len(), 3])
-}
-
-fn air_around(ir: &Bound<PyAny>, height: f64, finer: usize) -> PyResult<Atmosphere> {
-    let air = ir::atmosphere(ir, finer)?
-        .ok_or_else(|| PyValueError::new_err("the scene has no MIRAGE, so its rays are straight"))?;
-    if air.holds(height) {
-        Ok(air)
-    } else {
-        Err(PyValueError::new_err(format!(
-            "the observer's height {height} lies outside of the temperature profile, {} to {}",
-            air.bottom(),
-            air.profile_top
-        )))
+fn refused(refusal: Refusal) -> PyErr {
+    match refusal {
+        Refusal::Damaged(_) | Refusal::Limit(_) => PyValueError::new_err(refusal.to_string()),
+        Refusal::TooLarge => PyMemoryError::new_err(refusal.to_string()),
     }
 }
 
@@ -415,9 +429,7 @@ fn end_number(end: Option<End>) -> u8 {
 #[pymodule]
 fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
-    module.add_function(wrap_pyfunction!(trace_paths, module)?)?;
-    module.add_function(wrap_pyfunction!(trace_crossings, module)?)?;
-    module.add_function(wrap_pyfunction!(air_layers, module)?)?;
+    module.add_class::<Air>()?;
     module.add("EARTH_RADIUS", EARTH_RADIUS)?;
     module.add("END_NAMES", END_NAMES.to_vec())?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;

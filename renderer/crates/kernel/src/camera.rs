@@ -15,6 +15,7 @@ pub struct Camera {
 
 /// How many pixels the whole picture has.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Size {
     pub width: usize,
     pub height: usize,

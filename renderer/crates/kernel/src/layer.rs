@@ -7,6 +7,7 @@ use crate::render::Sight;
 
 /// One kind of extra output. Each value is a number a channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Layer {
     /// Distance along the direction of view; infinite where nothing is met.
     Depth,

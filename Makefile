@@ -15,7 +15,7 @@ CARGO_TEST := cargo test --quiet --release --workspace --manifest-path renderer/
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
-.PHONY: needs programs tools modules viewer
+.PHONY: needs programs tools modules viewer wasm
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
@@ -67,6 +67,9 @@ format: tools ## Lay out the Python and Rust code
 viewer: tools ## Bring pyvista (700 MB), for m3d-view and its tests
 	@echo "Bringing pyvista (700 MB) ..."
 	@$(UV) sync --quiet --inexact --group view
+
+wasm: ## Build the kernel for web pages, out/wasm/m3d_web.wasm (the first time a few minutes)
+	tools/wasm.sh $(OUT)/wasm
 
 generate: tools ## Write everything that is made of something else: of grammar/language.toml, the IR, the version
 	$(BIN)/python -m tools.version

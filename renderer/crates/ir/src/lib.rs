@@ -6,6 +6,7 @@
 //! more than that, and the kernel relies on it.
 
 mod air;
+mod archive;
 mod generated;
 mod header;
 mod lights;
@@ -22,6 +23,7 @@ use m3d_kernel::shade::illumination::Light;
 use m3d_kernel::shade::sky::Sky;
 
 pub use air::air;
+pub use archive::Archive;
 pub use refusal::{Refusal, Result};
 pub use tables::{Column, Numbers, Tables};
 

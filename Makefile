@@ -75,6 +75,7 @@ generate: tools ## Write everything that is made of something else: of grammar/l
 	$(BIN)/python -m tools.version
 	cd grammar && ../$(BIN)/python -m generate
 	cargo run --quiet --release --manifest-path grammar/parser-generator/Cargo.toml
+	$(BIN)/python -m tools.ir_crate
 	$(BIN)/python -m tools.m3ir_page
 	$(BIN)/python -m tools.diagnostics_page
 

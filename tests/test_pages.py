@@ -1,4 +1,4 @@
-"""The pages that `make generate` writes from the compiler's tables are current."""
+"""What `make generate` writes from the compiler's tables is current."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from types import ModuleType
 
 import pytest
 
-from tools import diagnostics_page, m3ir_page
+from tools import diagnostics_page, ir_crate, m3ir_page
 
 
-@pytest.mark.parametrize("made", [diagnostics_page, m3ir_page], ids=lambda made: made.PAGE.name)
+@pytest.mark.parametrize("made", [diagnostics_page, ir_crate, m3ir_page], ids=lambda made: made.PAGE.name)
 def test_the_page_is_current(made: ModuleType) -> None:
     assert made.PAGE.read_text(encoding="utf-8") == made.page(), "run `make generate` and commit the result"

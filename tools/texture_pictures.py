@@ -1,7 +1,8 @@
 """Renders a picture of every texture and writes docs/textures.md around them: part of `make gallery`.
 
 All show the same sphere on the same plane in the same light, and what the page says of a texture is the comment at the
-top of its file in renderer/crates/kernel/src/texture/. tests/test_texture_pictures.py checks that page and pictures are current.
+top of its file in renderer/crates/kernel/src/texture/. tests/test_texture_pictures.py checks that page and pictures are
+current.
 """
 
 from __future__ import annotations

@@ -38,9 +38,14 @@ class FormatError(ValueError):
 
 
 def header(scene: ir.SceneIR) -> str:
-    """The header: a JSON text. Raises ValueError for a value that is not finite."""
-    content = {"format": "m3ir", "version": VERSION, "source": scene.source, "scene": _plain(scene.scene)}
-    return json.dumps(content, allow_nan=False)
+    """The header: a JSON text. Raises ValueError that names a value that is not finite."""
+    said = _plain(scene.scene)
+    for name, member in said.items():
+        parts = cast("dict[str, Any]", member) if isinstance(member, dict) else {name: member}
+        for part, value in parts.items():
+            if isinstance(value, (float, tuple)) and not np.isfinite(cast("ir.Triple", value)).all():
+                raise ValueError(f"damaged scene: {part} is not finite")
+    return json.dumps({"format": "m3ir", "version": VERSION, "source": scene.source, "scene": said})
 
 
 def write(scene: ir.SceneIR, path: Path) -> None:

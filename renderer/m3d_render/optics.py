@@ -48,9 +48,7 @@ def trace_paths(
     angles = _angles(angles_rad)
     distances = _numbers([] if at is None else at)
     try:
-        ends, tips, arcs, heights = _air(ir, finer).paths(
-            _height(ir, eye_height), np.tan(angles), distances.tolist()
-        )
+        ends, tips, arcs, heights = _air(ir, finer).paths(_height(ir, eye_height), np.tan(angles), distances.tolist())
     except ValueError as error:
         raise SceneError(str(error)) from None
     return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], tips[:, :2], tips[:, 2], arcs)

@@ -302,7 +302,7 @@ step("a scene is compiled by its task", async () => {
 
 for (const { name, theme, mark, icon } of THEMES) {
   step(`it is seen in the theme ${name}`, async () => {
-    vscode.set("User", { "workbench.colorTheme": theme });
+    vscode.set("Workspace", { "workbench.colorTheme": theme });
     await workbench.page.locator(`.monaco-workbench.${mark}`).waitFor();
     await workbench.focus(SCENE);
     await workbench.command("Mirage3D: Open Preview to the Side");
@@ -327,7 +327,7 @@ for (const { name, theme, mark, icon } of THEMES) {
 }
 
 step("a task says how it has ended", async () => {
-  vscode.set("User", { "workbench.colorTheme": "Default Dark Modern" });
+  vscode.set("Workspace", { "workbench.colorTheme": "Default Dark Modern" });
   await workbench.openScene(SCENE);
   await workbench.command("Mirage3D: Compile Scene to .m3ir");
   await workbench.page.locator(".notification-toast", { hasText: "merman.m3ir is written." }).waitFor();

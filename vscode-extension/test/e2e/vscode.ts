@@ -35,8 +35,8 @@ export interface VSCode {
   url: string;
   /** The folder of the scenes. */
   folder: string;
-  /** Changes settings of the person or of the machine, as if their files were edited; VS Code follows. */
-  set(whose: "User" | "Machine", changes: Record<string, unknown>): void;
+  /** Changes settings of the machine or the workspace, as if their files were edited; VS Code follows. */
+  set(whose: "Machine" | "Workspace", changes: Record<string, unknown>): void;
   stop(): Promise<void>;
 }
 
@@ -57,19 +57,22 @@ export async function startVSCode(name: string, trusted: boolean, server?: strin
   fs.mkdirSync(path.join(run, "home"));
   const settings = {
     ...SETTINGS,
-    "files.exclude": { ".venv": true },
+    "files.exclude": { ".venv": true, ".vscode": true },
     "security.workspace.trust.enabled": !trusted,
     "security.workspace.trust.startupPrompt": "never",
   };
-  const own: Record<"User" | "Machine", Record<string, unknown>> = {
-    User: settings,
+  fs.writeFileSync(path.join(run, "data/User/settings.json"), JSON.stringify(settings, null, 2));
+  fs.mkdirSync(path.join(folder, ".vscode"));
+  const files = { Machine: "data/Machine/settings.json", Workspace: "scenes/.vscode/settings.json" };
+  const own: Record<"Machine" | "Workspace", Record<string, unknown>> = {
+    Workspace: {},
     Machine: trusted && server === undefined ? {} : { "m3d.server.path": server ?? SERVER },
   };
   const set: VSCode["set"] = (whose, changes) => {
     Object.assign(own[whose], changes);
-    fs.writeFileSync(path.join(run, `data/${whose}/settings.json`), JSON.stringify(own[whose], null, 2));
+    fs.writeFileSync(path.join(run, files[whose]), JSON.stringify(own[whose], null, 2));
   };
-  set("User", {});
+  set("Workspace", {});
   set("Machine", {});
 
   const env: NodeJS.ProcessEnv = { ...process.env, EXTENSIONS_GALLERY: "{}", HOME: path.join(run, "home") };

@@ -7,7 +7,10 @@ import { chromium, type Browser, type FrameLocator, type Locator, type Page } fr
 import { OUT, type VSCode } from "./vscode";
 
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/** How long anything may take, in ms (PATIENCE is in s): on a busy machine much takes long, and nothing is waited for in vain. */
+/**
+ * How long anything may take, in ms (the variable PATIENCE is in s): on a busy machine much takes long, and nothing is
+ * waited for in vain.
+ */
 const PATIENCE = Number(process.env.PATIENCE ?? 180) * 1000;
 
 const ARGUMENTS = [

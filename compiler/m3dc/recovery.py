@@ -60,7 +60,7 @@ def recover(data: bytes, root: Node, end: int, findings: Findings, most: int) ->
     `most`: the text is given up."""
     nodes = [node for node in root.children if node.type != "comment" and node.start_byte < end]
     whole = {node.start_byte for node in nodes if is_whole(node, root)}
-    reader = Reader(data, end, findings, whole, most)
+    reader = Reader(data, end, findings, whole, most, _declared_types(nodes))
     done = 0
     try:
         for number, node in enumerate(nodes):
@@ -77,6 +77,17 @@ def recover(data: bytes, root: Node, end: int, findings: Findings, most: int) ->
     except _TooManyError:
         return None
     return Recovered(tuple(reader.read), tuple(reader.stretches), frozenset(reader.names))
+
+
+def _declared_types(nodes: Iterable[Node]) -> dict[str, str]:
+    """The types of the variables that sound VARIABLES blocks declare."""
+    types: dict[str, str] = {}
+    for node in nodes:
+        for declaration in node.children if node.type == "variables" else ():
+            names = declaration.children_by_field_name("name")
+            type_ = declaration.children[0].type if names else ""
+            types |= {name.text.decode("latin-1"): type_ for name in names if name.text is not None}
+    return types
 
 
 def is_whole(node: Node, root: Node) -> bool:
@@ -120,7 +131,9 @@ class _Habit(NamedTuple):
 class Reader:
     """Reads items one after the other. Places are bytes of the text; the spans of an item count from its start."""
 
-    def __init__(self, data: bytes, end: int, findings: Findings, whole: set[int], most: int) -> None:
+    def __init__(
+        self, data: bytes, end: int, findings: Findings, whole: set[int], most: int, types: dict[str, str]
+    ) -> None:
         self.read: list[Read] = []
         self.stretches: list[Span] = []
         self.names: set[str] = set()
@@ -132,6 +145,7 @@ class Reader:
         self._before = 0  # where the last token ended
         self._findings = findings
         self._most = most
+        self._types = types  # of variables, by name
         self._marks: dict[int, int] = {}  # by the starts of items, how much had been found
         self._blocks: dict[int, tuple[str, int]] = {}  # by the starts of top-level blocks, keyword and closing brace
         self._habits: dict[str, _Habit] = {}
@@ -314,8 +328,10 @@ class Reader:
 
     # --- variables ----------------------------------------------------------------------------------------------
 
-    def _variables(self) -> ast.Variables:
-        keyword = self._next()
+    def _variables(self, word: Token | None = None) -> ast.Variables:
+        """A VARIABLES block; its keyword is the next token, or meant by a `word` that has been passed."""
+        keyword = word or self._next()
+        known = ast.Keyword("VARIABLES", self._span(keyword.span))
         self._superfluous_marks()
         declarations: list[ast.Declaration] = []
         opened = self._opened(keyword)
@@ -332,7 +348,9 @@ class Reader:
                 declarations += [declaration] if declaration else []
             else:
                 self._junk(None, code="M3D0109")
-        return ast.Variables(self._keyword(keyword), tuple(declarations), self._from(keyword))
+        for declaration in declarations:
+            self._types |= {name.text: declaration.type.text for name in declaration.names}
+        return ast.Variables(known, tuple(declarations), self._from(keyword))
 
     def _ends_declarations(self, token: Token) -> bool:
         """Whether a token begins an item of the top level, as one can tell where a VARIABLES block is not closed."""
@@ -485,11 +503,11 @@ class Reader:
             self._next()
             body = self._body(token, LANGUAGE.blocks.get(token.text))
         elif token.kind == "{" and not self._is_bracketed():
-            body = self._body(target, None)
+            body = self._body(target, self._type_of(target))
         elif self._starts_value() and not (token.kind == "word" and token.first and self._peek(1).kind == "="):
             value = self._value(None)
             if isinstance(value, ast.Name) and self._peek().kind == "{":
-                body = self._body(target, None)
+                body = self._body(target, self._type_of(target))
             elif self._peek().kind in (",", "number") and isinstance(value, ast.Number):
                 detail = "a vector stands between < and >"
                 self._fault("M3D0107", self._peek().span, f"{_found(self._peek())}; {detail}")
@@ -503,6 +521,10 @@ class Reader:
             self.names.add(target.text)
             return None
         return ast.Assignment(name, value, body, self._from(target))
+
+    def _type_of(self, variable: Token) -> Block | None:
+        """The block that a variable holds, if it has been declared with such a type."""
+        return LANGUAGE.blocks.get(self._types.get(variable.text, "").upper())
 
     # --- blocks -------------------------------------------------------------------------------------------------
 
@@ -663,6 +685,8 @@ class Reader:
         """A block, statement or table; its keyword is the next token, or meant by a `word` that has been passed."""
         token = word or self._next()
         keyword = keyword or token.text
+        if keyword == "VARIABLES" and not self._around:
+            return self._variables(token)
         known = ast.Keyword(keyword, self._span(token.span))
         entry = (block.statements.get(keyword) if block else None) or _STATEMENTS.get(keyword)
         inner = LANGUAGE.blocks.get(keyword)
@@ -732,6 +756,8 @@ class Reader:
         elsewhere = certain(word.text, LANGUAGE.keywords) or nearest(word.text, LANGUAGE.keywords)
         if elsewhere is not None and LANGUAGE.parents.get(elsewhere):
             return place_of(elsewhere, self._around)
+        if block is None and self._around:
+            return f"no statement is called that; {CAPITALS}"
         if block is None:
             return f"a file holds {_TOP_LEVEL}; {CAPITALS}"
         return f"a {block.keyword} holds {_some(block.members())}; {CAPITALS}"

@@ -16,8 +16,7 @@ import numpy as np
 
 import m3d_render
 from m3d_render.rendering import Prepared, usable_threads
-from m3dc import m3ir
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, m3ir
 
 from . import povray
 from .child import Run, run

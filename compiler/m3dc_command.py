@@ -261,7 +261,7 @@ def m3dc() -> int:
     _without_threads()
 
     def load() -> Callable[[], int]:
-        from m3dc.cli import main
+        from m3dc.commands.m3dc import main
 
         return main
 
@@ -273,7 +273,7 @@ def m3dfmt() -> int:
     _without_threads()
 
     def load() -> Callable[[], int]:
-        from m3dc.format_cli import main
+        from m3dc.commands.m3dfmt import main
 
         return main
 

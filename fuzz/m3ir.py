@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 import m3dc
-from m3dc import m3ir
-from m3dc.soundness import fault
+from m3dc.ir import m3ir
+from m3dc.ir.soundness import fault
 
 from . import repeating
 from .scenes import Scenes

@@ -7,7 +7,7 @@ import warnings
 
 import m3dc
 from m3dc.analysis import Analyser
-from m3dc.soundness import fault
+from m3dc.ir.soundness import fault
 
 from . import repeating
 from .scenes import Scenes, broken

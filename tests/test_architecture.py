@@ -6,6 +6,7 @@ import ast
 import re
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,70 @@ def imports(package: str) -> set[str]:
     return found - sys.stdlib_module_names - {package, "typing_extensions"}
 
 
+def graph(package: str) -> dict[str, set[str]]:
+    """Which modules of a package import which others of it, be it within a function or for their types alone."""
+    folder = PACKAGES[package]
+    modules: dict[str, tuple[ast.Module, list[str]]] = {}
+    for file in folder.rglob("*.py"):
+        path = [package, *file.relative_to(folder).with_suffix("").parts]
+        inside = path[:-1]
+        name = ".".join(inside if path[-1] == "__init__" else path)
+        modules[name] = ast.parse(file.read_text(encoding="utf-8")), inside
+    native = {f"{package}.{file.stem}" for file in folder.rglob("*.pyi")}
+    found: dict[str, set[str]] = {}
+    for name, (tree, inside) in modules.items():
+        named: set[str] = set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                named.update(alias.name for alias in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                base = inside[: len(inside) + 1 - node.level] if node.level else []
+                origin = ".".join([*base, *([node.module] if node.module else [])])
+                each = {f"{origin}.{alias.name}" for alias in node.names}
+                known = each & (modules.keys() | native)
+                named |= known if known == each else known | {origin}
+        found[name] = (named & modules.keys()) - {name}
+    return found
+
+
+def circle(arrows: Mapping[str, set[str]]) -> list[str]:
+    """Names that lead to one another, or none."""
+    done: set[str] = set()
+
+    def follow(name: str, way: list[str]) -> list[str]:
+        if name in way:
+            return [*way[way.index(name) :], name]
+        if name in done:
+            return []
+        for other in sorted(arrows.get(name, ())):
+            if found := follow(other, [*way, name]):
+                return found
+        done.add(name)
+        return []
+
+    return next(filter(None, (follow(name, []) for name in sorted(arrows))), [])
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_no_modules_import_each_other(package: str) -> None:
+    assert circle(graph(package)) == []
+
+
+ROOMS = ("text", "diagnostics", "syntax", "meaning", "ir")
+"""The compiler's folders from the ground up: each imports from those before it alone."""
+
+
+def test_the_compilers_rooms_stand_one_upon_another() -> None:
+    arrows: dict[str, set[str]] = {}
+    for name, others in graph("m3dc").items():
+        room = name.split(".")[1] if "." in name else ""
+        arrows.setdefault(room, set()).update(other.split(".")[1] for other in others if "." in other)
+    for below, room in enumerate(ROOMS):
+        assert arrows[room] - {room} <= {*ROOMS[:below], "files"}, room
+    assert arrows["format"] - {"format"} <= {"text", "diagnostics", "syntax"}
+    assert arrows["files"] <= {"files"}
+
+
 @pytest.mark.parametrize("package", PACKAGES)
 def test_dependencies_point_one_way(package: str) -> None:
     assert imports(package) <= MAY_IMPORT[package]
@@ -68,7 +133,7 @@ def loaded(statement: str) -> set[str]:
 
 
 def test_a_command_line_loads_only_what_it_needs() -> None:
-    compiler = loaded("import m3dc.cli; m3dc.cli.compile('SOLID { SPHERE { } }')")
+    compiler = loaded("import m3dc.commands.m3dc; m3dc.commands.m3dc.compile('SOLID { SPHERE { } }')")
     assert not compiler & {"pygls", "lsprotocol", "pyvista", "vtkmodules", "OpenImageIO", "lark", "m3d_render"}
     renderer = loaded("import m3d_render.cli")
     assert not renderer & {"pygls", "lsprotocol", "pyvista", "vtkmodules", "OpenImageIO", "lark"}
@@ -80,7 +145,7 @@ def test_the_tree_knows_no_keyword() -> None:
     """No node of the syntax tree is named after a block or statement of the language."""
     from tree_sitter_m3d.table import LANGUAGE
 
-    tree = ast.parse((PACKAGES["m3dc"] / "ast.py").read_text(encoding="utf-8"))
+    tree = ast.parse((PACKAGES["m3dc"] / "syntax/ast.py").read_text(encoding="utf-8"))
     names = {node.name.upper() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
     # What a number, a vector and a declaration look like is form; the types' names happen to be the same.
     assert names & LANGUAGE.keywords == {"NUMBER", "VECTOR", "VARIABLES"}

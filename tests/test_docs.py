@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 import m3dc
-from m3dc import m3ir
-from m3dc.report import print_human
+from m3dc.diagnostics.report import print_human
+from m3dc.ir import m3ir
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -19,8 +19,8 @@ from m3d_render.plot.section import section
 from m3d_render.view.bodies import bodies
 from m3d_render.view.ground import ground
 from m3d_render.wireframe import edges
-from m3dc.dump import dump
 from m3dc.ir import PRIMITIVE_TABLE, PrimitiveKind, SceneIR
+from m3dc.ir.dump import dump
 from tree_sitter_m3d.table import LANGUAGE
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from m3dc.catalogue import CATALOGUE
+from m3dc.diagnostics.catalogue import CATALOGUE
 
 PAGE = Path(__file__).parent.parent / "docs/diagnostics.md"
 
 INTRODUCTION = """\
 # Diagnostics
 
-*Made by `make generate` from compiler/m3dc/catalogue.py.*
+*Made by `make generate` from compiler/m3dc/diagnostics/catalogue.py.*
 
 What the compiler can say about a scene. Headlines are those of the 1993 program where it had one (thesis, Appendix B).
 An *error* stops a scene from being rendered, a *warning* does not, a *hint* is shown only when asked for.

@@ -1,4 +1,4 @@
-"""Writes renderer/crates/ir/src/generated.rs from compiler/m3dc/ir.py: part of `make generate`.
+"""Writes renderer/crates/ir/src/generated.rs from compiler/m3dc/ir/tables.py: part of `make generate`.
 
 It holds what the Rust side has to know of the IR by name: the kinds with their numbers, and the header's structures.
 """
@@ -12,7 +12,7 @@ from types import UnionType
 from typing import Annotated, Any, NamedTuple, get_args, get_origin
 
 from m3dc import ir
-from m3dc.m3ir import VERSION
+from m3dc.ir.m3ir import VERSION
 
 PAGE = Path(__file__).parent.parent / "renderer/crates/ir/src/generated.rs"
 
@@ -20,7 +20,7 @@ KINDS: tuple[type[IntEnum], ...] = (ir.PrimitiveKind, ir.TextureKind, ir.LightKi
 _TYPES = {float: "f64", int: "i64", bool: "bool", ir.Triple: "[f64; 3]"}
 
 _HEAD = f"""\
-//! Made by `make generate` from compiler/m3dc/ir.py: the kinds of rows, and what a scene says once.
+//! Made by `make generate` from compiler/m3dc/ir/tables.py: the kinds of rows, and what a scene says once.
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-"""Writes docs/m3ir.md from the description of the tables in compiler/m3dc/ir.py: part of `make generate`."""
+"""Writes docs/m3ir.md from the description of the tables in compiler/m3dc/ir/tables.py: part of `make generate`."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from types import UnionType
 from typing import Annotated, NamedTuple, get_args, get_origin
 
 from m3dc import ir
-from m3dc.m3ir import VERSION
+from m3dc.ir.m3ir import VERSION
+from m3dc.text.span import Span
 
 PAGE = Path(__file__).parent.parent / "docs/m3ir.md"
 
 INTRODUCTION = f"""\
 # The .m3ir file
 
-*Made by `make generate` from compiler/m3dc/ir.py.*
+*Made by `make generate` from compiler/m3dc/ir/tables.py.*
 
 A compiled scene is one NumPy archive (`.npz`, stored without compression) that NumPy alone opens, without pickle:
 
@@ -31,7 +32,7 @@ with np.load("out/merman.m3ir", allow_pickle=False) as archive:
 
 `header` is a JSON text as bytes: `format` is `"m3ir"`, `version` is {VERSION}, `source` the scene file's name, `scene`
 the things a scene says once. Every other array is a column of a table, named `table.column`, with one entry a row. A
-reader must refuse a version it does not know; `m3dc.m3ir.read` does, and says so. It also refuses a file that is
+reader must refuse a version it does not know; `m3dc.ir.m3ir.read` does, and says so. It also refuses a file that is
 compressed, cut short or has other bytes than this page says: every number is finite, unless it may be infinite, and
 within the bounds given here; every row that is named is there.
 
@@ -41,7 +42,7 @@ follow one another: `first_...` is the first, `..._count` how many there are.
 """
 
 
-_ALIASES = {ir.Triple: "triple", Mapping[str, ir.Span]: "by keyword, a pair of bytes"}
+_ALIASES = {ir.Triple: "triple", Mapping[str, Span]: "by keyword, a pair of bytes"}
 
 
 def page() -> str:

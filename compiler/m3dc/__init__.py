@@ -12,6 +12,6 @@ import numpy as _numpy  # noqa: F401  # pyright: ignore[reportUnusedImport]
 from .compiler import Result, compile
 from .diagnostics import Diagnostic, Fix, Related
 from .ir import SceneIR
-from .source import Source
+from .text.source import Source
 
 __all__ = ["Diagnostic", "Fix", "Related", "Result", "SceneIR", "Source", "compile"]

@@ -10,19 +10,20 @@ from functools import cached_property
 
 from tree_sitter import Tree
 
-from . import ast, program
-from .check import check
-from .collection import paused
 from .compiler import Result, has_errors, in_order, noted
-from .diagnostics import Diagnostic, Findings
-from .evaluate import Evaluator, World
+from .diagnostics import Diagnostic, Findings, placed
+from .files.collection import paused
 from .ir import SceneIR
-from .lint import lint
-from .lower import lower
-from .memo import Steps
-from .places import Places
-from .source import Source
-from .syntax import Parsed, parse
+from .ir.lower import lower
+from .meaning import program
+from .meaning.check import check
+from .meaning.evaluate import Evaluator, World
+from .meaning.lint import lint
+from .meaning.memo import Steps
+from .syntax import ast
+from .syntax.parse import Parsed, parse
+from .text.places import Places
+from .text.source import Source
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,5 +85,5 @@ class Analyser:
             self._lints.begin()
             lint(world, checked, findings, self._lints)
         places = self._parsed.places
-        diagnostics = in_order(map(places.diagnostic, findings.found), source)
+        diagnostics = in_order((placed(found, places) for found in findings.found), source)
         return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, places, diagnostics)

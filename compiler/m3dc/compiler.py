@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeVar
 
-from .check import check
-from .collection import paused
 from .diagnostics import Diagnostic, Findings
-from .directives import without_allowed, wrong_directives
-from .evaluate import Evaluator
+from .diagnostics.directives import without_allowed, wrong_directives
+from .files.collection import paused
 from .ir import SceneIR
-from .lint import lint
-from .lower import lower
-from .places import Places
-from .program import Item
-from .source import Source
-from .syntax import parse
+from .ir.lower import lower
+from .meaning.check import check
+from .meaning.evaluate import Evaluator
+from .meaning.lint import lint
+from .meaning.program import Item
+from .syntax.parse import parse
+from .text.places import Places
+from .text.source import Source
 
 T = TypeVar("T")
 
@@ -36,7 +36,7 @@ class Result(NamedTuple):
     def _repr_html_(self) -> str:
         from .notebook import result_html  # here, because only notebooks ask
 
-        return result_html(self)
+        return result_html(self.diagnostics, self.source, self.ir)
 
 
 @paused()

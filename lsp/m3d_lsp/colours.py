@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
-from m3dc import ast, program
 from m3dc.analysis import Analysis
-from m3dc.values import Vector
+from m3dc.meaning import program
+from m3dc.meaning.values import Vector
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.table import Argument
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-from m3dc import ast
 from m3dc.analysis import Analysis
-from m3dc.comments import Comments, text_of
+from m3dc.syntax.parse import ast
+from m3dc.text.comments import Comments, text_of
 
 from .text import Span
 

@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
-from m3dc import ast
 from m3dc.analysis import Analysis
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d.table import LANGUAGE
 
 from .comments import Comments, comments

@@ -11,9 +11,10 @@ import asyncio
 import contextvars
 import json
 import logging
+import typing
 from collections.abc import Generator, Mapping
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any, NoReturn, cast
+from typing import Any, NoReturn, cast
 
 from lsprotocol import types
 from pygls.exceptions import (
@@ -28,12 +29,10 @@ from pygls.exceptions import (
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from .client import Client
+from .documents import Documents
 from .frames import Fault
 from .reading import what_is_wrong
 from .registry import RefusalError
-
-if TYPE_CHECKING:
-    from .server import Server
 
 log = logging.getLogger(__name__)
 
@@ -43,14 +42,26 @@ LAST_ANSWERS_S = 1.0
 Message = Mapping[str, Any]
 
 
+class Owner(typing.Protocol):
+    """What the protocol tells of to the server whose it is."""
+
+    documents: Documents
+
+    def end(self, status: int) -> None: ...
+    def watch(self, process: int | None) -> None: ...
+    def offer_edits(self) -> None: ...
+    def not_read(self, method: str, given: Any, reason: str) -> None: ...
+    def forget(self, uri: str) -> None: ...
+
+
 class Protocol(LanguageServerProtocol):
     """Takes messages as they come, and hands what becomes of documents to the server's `documents`."""
 
     _initialized = False
 
     @property
-    def _own(self) -> Server:
-        return cast("Server", self._server)
+    def _own(self) -> Owner:
+        return cast("Owner", self._server)
 
     @property
     def was_shut_down(self) -> bool:

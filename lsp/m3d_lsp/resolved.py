@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from m3dc.evaluate import World
 from m3dc.ir import PRIMITIVE_TABLE, Extent, PrimitiveKind, SceneIR
-from m3dc.lower import lower, view
-from m3dc.places import Places
-from m3dc.transform import IDENTITY, Transform, unit
-from m3dc.values import Record
+from m3dc.ir.lower import lower, view
+from m3dc.meaning.evaluate import World
+from m3dc.meaning.transform import IDENTITY, Transform, unit
+from m3dc.meaning.values import Record
+from m3dc.text.places import Places
 
 from .markdown import matrix
 from .standing import Standing, in_scene

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from m3dc import program
-from m3dc.evaluate import World
-from m3dc.lower import lower
-from m3dc.values import Record, TableValue
+from m3dc.ir.lower import lower
+from m3dc.meaning import program
+from m3dc.meaning.evaluate import World
+from m3dc.meaning.values import Record, TableValue
 
 from .markdown import shown
 from .standing import Standing, in_scene

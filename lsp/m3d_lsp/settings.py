@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, cast
 
-from m3dc.levels import Levels
+from m3dc.diagnostics.levels import Levels
 
 
 @dataclass(frozen=True)

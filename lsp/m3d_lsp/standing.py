@@ -10,13 +10,13 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import NamedTuple
 
-from m3dc import program
 from m3dc.analysis import Analysis
 from m3dc.diagnostics import Findings
-from m3dc.evaluate import Evaluator, Made, value_at_first
-from m3dc.places import Places
-from m3dc.transform import IDENTITY, Transform
-from m3dc.values import Record, Value
+from m3dc.meaning import program
+from m3dc.meaning.evaluate import Evaluator, Made, value_at_first
+from m3dc.meaning.transform import IDENTITY, Transform
+from m3dc.meaning.values import Record, Value
+from m3dc.text.places import Places
 
 # Tables with more rows are not read again.
 LONG = 5000

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from m3dc.transform import IDENTITY
-from m3dc.values import Record, Value
+from m3dc.meaning.transform import IDENTITY
+from m3dc.meaning.values import Record, Value
 from tree_sitter_m3d.table import Default
 
 # Parts of a block that are shown; of more only the number is.

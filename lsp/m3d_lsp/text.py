@@ -11,8 +11,8 @@ from lsprotocol import types
 from numpy.typing import NDArray
 
 from m3dc import Source
-from m3dc.differences import Differences
-from m3dc.ir import Span
+from m3dc.text.differences import Differences
+from m3dc.text.span import Span
 
 __all__ = ["Span", "Text"]
 

@@ -20,8 +20,8 @@ from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
 from m3dc import compile as compile_scene
-from m3dc import report
-from m3dc.interrupt import Interrupt
+from m3dc.diagnostics import report
+from m3dc.files.interrupt import Interrupt
 from m3dc.ir import SceneIR
 
 WRONG_NORMALS = "M3D0511"

@@ -29,10 +29,11 @@ from m3dc_command import (
 )
 from m3dc_command import parser as _parser
 
-from m3dc import Result, m3ir, report
+from m3dc import Result
 from m3dc import compile as compile_scene
-from m3dc.ir import SceneIR
-from m3dc.levels import Levels
+from m3dc.diagnostics import report
+from m3dc.diagnostics.levels import Levels
+from m3dc.ir import SceneIR, m3ir
 
 __all__ = [
     "DISTRIBUTION",

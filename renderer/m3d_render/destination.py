@@ -10,7 +10,7 @@ from typing import NamedTuple
 from m3d_render import command
 from m3d_render.command import USAGE_ERROR, CommandError
 from m3d_render.picture import FORMATS, plane_paths
-from m3dc.artefact import names_stream
+from m3dc.files.artefact import names_stream
 
 STANDARD_OUTPUT = "-"
 

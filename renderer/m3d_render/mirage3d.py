@@ -22,11 +22,11 @@ from m3d_render import command, wireframe
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR
 from m3d_render.picture import to_bytes
 from m3d_render.rendering import Cancelled, SceneError, prepare
-from m3dc import report
-from m3dc.artefact import replacing, write_file
-from m3dc.dump import dump
-from m3dc.interrupt import Interrupt
-from m3dc.levels import Levels
+from m3dc.diagnostics import report
+from m3dc.diagnostics.levels import Levels
+from m3dc.files.artefact import replacing, write_file
+from m3dc.files.interrupt import Interrupt
+from m3dc.ir.dump import dump
 
 LISTING = """\
 usage: mirage3d datafile [-command ...]

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from m3d_render import _kernel
 from m3d_render.rendering import MOST_FINER, SceneError, whole
-from m3dc import m3ir
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, m3ir
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from m3dc.artefact import replacing
+from m3dc.files.artefact import replacing
 
 if TYPE_CHECKING:
     import OpenImageIO

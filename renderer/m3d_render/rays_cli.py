@@ -20,7 +20,7 @@ from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.optics import trace_crossings, trace_paths
 from m3d_render.ray_options import angles, distances
 from m3d_render.rendering import SceneError
-from m3dc.artefact import replacing, text_of
+from m3dc.files.artefact import replacing, text_of
 from m3dc.ir import SceneIR
 
 HEADING = "angle_arcmin,r_m,z_m,end"

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from m3d_render import _kernel
 from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
 from m3d_render.picture import png
-from m3dc import m3ir
-from m3dc.ir import SceneIR
+from m3dc.ir import SceneIR, m3ir
 
 Layers: TypeAlias = dict[str, NDArray[np.float32]]
 

@@ -12,8 +12,8 @@ from m3d_render.wireframe.drawing import HIDDEN, project
 from m3d_render.wireframe.marks import MARKS
 from m3d_render.wireframe.raster import PAPERS, raster
 from m3d_render.wireframe.svg import svg
-from m3dc import report
-from m3dc.artefact import write_file
+from m3dc.diagnostics import report
+from m3dc.files.artefact import write_file
 
 WITHOUT_EFFECT = (
     *("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples"),

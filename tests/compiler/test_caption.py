@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from m3dc.caption import Caption, caption
+from m3dc.text.caption import Caption, caption
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from marks import mark, marks, with_marks, without_marks
 
 import m3dc
-from m3dc.catalogue import CATALOGUE
+from m3dc.diagnostics.catalogue import CATALOGUE
 
 SCENES = sorted((Path(__file__).parent / "diagnostics").glob("*.m3d"))
 

@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from m3dc.differences import Differences
+from m3dc.text.differences import Differences
 
 LINES = [
     "SCENE { LOGSCALE 4 }",

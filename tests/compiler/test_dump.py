@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import m3dc
-from m3dc.dump import dump, lines
+from m3dc.ir.dump import dump, lines
 
 HERE = Path(__file__).parent
 BASELINES = ("cylinder-and-cone", "merman", "runway", "two-balls", "wheel")

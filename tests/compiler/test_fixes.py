@@ -15,9 +15,9 @@ from marks import without_marks
 from mutations import mutations
 
 import m3dc
-from m3dc.catalogue import CATALOGUE
 from m3dc.diagnostics import all_certain
-from m3dc.spelling import certain, nearest
+from m3dc.diagnostics.catalogue import CATALOGUE
+from m3dc.diagnostics.spelling import certain, nearest
 from tree_sitter_m3d.table import LANGUAGE
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from m3dc import format_cli
+from m3dc.commands import m3dfmt as format_cli
 
 UNTIDY = "SOLID{SPHERE{RADIUS 2}}\n"
 TIDY = "SOLID { SPHERE { RADIUS 2 } }\n"
@@ -19,7 +19,7 @@ BROKEN = "x=1\nSOLID { SPHERE { RADIUS }\n"
 
 
 def m3dfmt(*arguments: object, text: str | None = None, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    program = "import sys; from m3dc.format_cli import main; sys.exit(main())"
+    program = "import sys; from m3dc.commands.m3dfmt import main; sys.exit(main())"
     command = [sys.executable, "-c", program, *map(str, arguments)]
     return subprocess.run(command, input=text, capture_output=True, cwd=cwd, timeout=120, check=False, text=True)
 
@@ -150,7 +150,7 @@ def test_a_failed_write_leaves_the_old_file(
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no /dev/full")
 def test_output_that_can_not_be_written() -> None:
-    program = "import sys; from m3dc.format_cli import main; sys.exit(main())"
+    program = "import sys; from m3dc.commands.m3dfmt import main; sys.exit(main())"
     with open("/dev/full", "wb") as full:
         done = subprocess.run(
             [sys.executable, "-c", program, "-"],

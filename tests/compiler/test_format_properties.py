@@ -16,7 +16,7 @@ from tree_sitter import Language, Node, Parser
 import m3dc
 import tree_sitter_m3d
 from m3dc.format import Edit, FormatError, edits, format, format_range
-from m3dc.format_diff import unified_diff
+from m3dc.format.diff import unified_diff
 from m3dc.ir import TABLES
 from tree_sitter_m3d.formal import parser
 from tree_sitter_m3d.table import LANGUAGE

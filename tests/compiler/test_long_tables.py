@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import m3dc
-from m3dc import long_tables
 from m3dc.ir import TABLES
+from m3dc.text import long_tables
 
 
 def scene(rows: int = 9000, *, broken: str = "", before: str = "", after: str = "") -> str:

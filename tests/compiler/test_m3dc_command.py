@@ -11,14 +11,19 @@ from pathlib import Path
 
 import pytest
 
-from m3dc import m3ir
+from m3dc.ir import m3ir
 
 GOOD = "SCENE { SKY { } } SOLID { SPHERE { RADIUS 2 } }\n"
 BAD = "SOLID { SPHERE { RADIUS -2 } }\n"
 
 
 def m3dc(*arguments: object, text: bytes | None = None, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", "import sys; from m3dc.cli import main; sys.exit(main())", *map(str, arguments)]
+    command = [
+        sys.executable,
+        "-c",
+        "import sys; from m3dc.commands.m3dc import main; sys.exit(main())",
+        *map(str, arguments),
+    ]
     done = subprocess.run(command, input=text, capture_output=True, cwd=cwd, timeout=120, check=False)
     return subprocess.CompletedProcess(command, done.returncode, done.stdout.decode(), done.stderr.decode())
 
@@ -148,7 +153,7 @@ def test_colours_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     import io
 
     import m3dc as compiler
-    from m3dc.report import print_human
+    from m3dc.diagnostics.report import print_human
 
     class Terminal(io.StringIO):
         def isatty(self) -> bool:

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 import m3dc
-from m3dc import m3ir
-from m3dc.ir import TABLES, SceneIR
+from m3dc.ir import TABLES, SceneIR, m3ir
 
 
 @pytest.fixture

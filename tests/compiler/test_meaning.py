@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 import m3dc
-from m3dc.lower import beckmann_maximum, fresnel
+from m3dc.ir.lower import beckmann_maximum, fresnel
 
 
 def compiled(text: str) -> m3dc.SceneIR:

@@ -11,7 +11,7 @@ from tree_sitter import Language, Parser, Tree
 
 import m3dc
 import tree_sitter_m3d
-from m3dc.syntax import HEAD
+from m3dc.syntax.parse import HEAD
 from tree_sitter_m3d.formal import first_error
 
 DEEP = 10_000

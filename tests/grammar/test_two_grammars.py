@@ -15,9 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 
-from m3dc.catalogue import CATALOGUE
-from m3dc.check import structural_faults
-from m3dc.source import Source
+from m3dc.diagnostics.catalogue import CATALOGUE
+from m3dc.meaning.check import structural_faults
+from m3dc.text.source import Source
 from tree_sitter_m3d.formal import first_error, parser
 from tree_sitter_m3d.table import LANGUAGE
 

@@ -12,7 +12,7 @@ from marks import without_marks
 from mutations import mutations
 
 import m3dc
-from m3dc.catalogue import CATALOGUE
+from m3dc.diagnostics.catalogue import CATALOGUE
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 

@@ -10,7 +10,7 @@ from own_requests import edit, to_range
 from pygls.exceptions import JsonRpcInvalidParams
 
 import m3dc
-from m3dc.dump import lines
+from m3dc.ir.dump import lines
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 

@@ -16,7 +16,7 @@ from scene_builder import merman
 
 import m3d_render
 from m3d_render.picture import linear
-from m3dc import m3ir
+from m3dc.ir import m3ir
 
 SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
 
@@ -223,7 +223,7 @@ def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_pa
 INTERRUPTED = """
 import itertools, signal, sys
 from m3d_render.cli import main
-from m3dc.interrupt import Interrupt
+from m3dc.files.interrupt import Interrupt
 
 look, looks = Interrupt.asked, itertools.count(1)
 

@@ -8,8 +8,7 @@ import pytest
 from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, from_sun
 
 import m3d_render
-from m3dc import m3ir
-from m3dc.ir import Ambient, LightKind
+from m3dc.ir import Ambient, LightKind, m3ir
 
 AXIS, DIAGONAL = 0.515594, 0.490719
 """Mean of N.D over the thesis's random directions, for a normal along an axis of space and along a diagonal."""

@@ -15,7 +15,7 @@ from scene_builder import merman
 
 from m3d_render import plot
 from m3d_render.plot.cli import main
-from m3dc import m3ir
+from m3dc.ir import m3ir
 
 SIGNATURES = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG"}
 

@@ -11,7 +11,7 @@ import pytest
 from scene_builder import SceneBuilder, merman
 
 from m3d_render.optics import trace_crossings, trace_paths
-from m3dc import m3ir
+from m3dc.ir import m3ir
 
 
 def command(*arguments, **options):

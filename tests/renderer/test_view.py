@@ -27,8 +27,7 @@ from m3d_render.view.ground import ground, places_of_interest, round_down
 from m3d_render.view.marks import extent_box, frustum, light_marks
 from m3d_render.view.opening import Fault, Opened, open_scene
 from m3d_render.view.viewpoint import viewpoint
-from m3dc import m3ir
-from m3dc.ir import PrimitiveKind
+from m3dc.ir import PrimitiveKind, m3ir
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import pytest
 
 import m3d_render
 import m3dc
-from m3dc import m3ir
+from m3dc.ir import m3ir
 
 ROOT = Path(__file__).parents[2]
 MODULE = ROOT / "out/wasm/m3d_web.wasm"

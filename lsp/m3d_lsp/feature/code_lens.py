@@ -16,7 +16,7 @@ from typing import Any
 
 from lsprotocol import types
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d.table import LANGUAGE
 
 from ..names import Names, Role, names

@@ -9,7 +9,7 @@ import re
 
 from lsprotocol import types
 
-from m3dc.values import Vector
+from m3dc.meaning.values import Vector
 
 from ..colours import colours
 from ..registry import request

@@ -16,8 +16,8 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3dc import ast
-from m3dc.values import Value
+from m3dc.meaning.values import Value
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d.formal import END
 from tree_sitter_m3d.phrases import written
 from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement

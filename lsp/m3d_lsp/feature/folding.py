@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 from lsprotocol import types
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 
 from ..comments import comments
 from ..registry import request

@@ -11,7 +11,7 @@ import re
 from lsprotocol import types
 
 from m3dc.format import FormatError, format_range
-from m3dc.format_layout import INDENT
+from m3dc.format.layout import INDENT
 from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import comments

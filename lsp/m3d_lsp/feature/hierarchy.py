@@ -12,7 +12,7 @@ from typing import TypeAlias, TypeVar
 
 from lsprotocol import types
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 
 from ..names import Occurrence, Role, names
 from ..outline import Entry, outline

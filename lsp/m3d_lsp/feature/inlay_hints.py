@@ -23,8 +23,9 @@ import numpy as np
 from lsprotocol import types
 from numpy.typing import NDArray
 
-from m3dc import ast, program
-from m3dc.values import Record, Value
+from m3dc.meaning import program
+from m3dc.meaning.values import Record, Value
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.table import Argument
 

@@ -14,7 +14,7 @@ from lsprotocol import types
 
 from m3dc import Source
 from m3dc.diagnostics import Findings
-from m3dc.syntax import parse
+from m3dc.syntax.parse import parse
 from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import Comments

@@ -11,8 +11,8 @@ from itertools import islice
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from m3dc.dump import Line, lines, object_lines
 from m3dc.ir import SceneIR
+from m3dc.ir.dump import Line, lines, object_lines
 
 from ..given import Given
 from ..good import Good, last_good

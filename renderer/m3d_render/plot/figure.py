@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from m3d_render.command import USAGE_ERROR, CommandError, reason
-from m3dc.artefact import replacing
+from m3dc.files.artefact import replacing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

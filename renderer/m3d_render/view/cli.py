@@ -23,7 +23,7 @@ from m3d_render.view.opening import Fault, Opened, open_scene
 from m3d_render.view.stage import LAYERS, Stage
 from m3d_render.view.viewpoint import FROM, LEAST_VERTICAL, MOST_VERTICAL
 from m3d_render.view.window import Window, heading
-from m3dc.artefact import write_file
+from m3dc.files.artefact import write_file
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp")
 LARGEST_SIDE = 8192

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.view.opening import Opened
-from m3dc.caption import caption
 from m3dc.ir import PrimitiveKind
+from m3dc.text.caption import caption
 
 
 def describe(opened: Opened, primitive: int) -> str:

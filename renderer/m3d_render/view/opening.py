@@ -8,7 +8,7 @@ from typing import NamedTuple
 from m3d_render import command
 from m3d_render.command import SCENE_ERROR, CommandError
 from m3dc.ir import SceneIR
-from m3dc.source import Source
+from m3dc.text.source import Source
 
 
 class Opened(NamedTuple):

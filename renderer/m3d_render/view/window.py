@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from m3d_render.view.follower import Follower
 from m3d_render.view.opening import Fault
 from m3d_render.view.stage import Stage
-from m3dc.interrupt import Interrupt
+from m3dc.files.interrupt import Interrupt
 
 _POLL = 250  # milliseconds between two looks at the file
 _CLICK = 4  # pixels by which the mouse may move in a click

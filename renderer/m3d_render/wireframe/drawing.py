@@ -14,7 +14,6 @@ from m3d_render.rendering import prepare
 from m3d_render.wireframe.camera import above, before_the_eye, to_camera, to_pixels, to_scene, within
 from m3d_render.wireframe.edges import CIRCLE_STEPS, Edges, edges
 from m3d_render.wireframe.marks import MARKS, frustum_points, marks
-from m3d_render.wireframe.raster import Paper, raster
 from m3dc.ir import SceneIR, View
 
 Points = NDArray[np.float64]
@@ -78,20 +77,6 @@ def project(
         if hidden == "remove":
             layers = [_without_hidden(layer) for layer in layers]
     return Drawing(columns, rows, layers)
-
-
-def draw(
-    ir: SceneIR,
-    width: int | None = None,
-    height: int | None = None,
-    *,
-    from_above: bool = False,
-    hidden: Hidden = "show",
-    show: Iterable[str] = (),
-    paper: Paper = "black",
-) -> NDArray[np.float32]:
-    """The wireframe picture of a scene: rows x columns x 3, 0..1. Options as of `project`."""
-    return raster(project(ir, width, height, from_above=from_above, hidden=hidden, show=show), paper)
 
 
 def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3dc.ir import PRIMITIVE_TABLE, PrimitiveKind, SceneIR, Table
-from m3dc.transform import unit
+from m3dc.meaning.transform import unit
 
 Points = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from m3d_render.sight import half_height, things_distance
 from m3d_render.wireframe.edges import Edges
 from m3dc.ir import LightKind, SceneIR, View
-from m3dc.transform import unit
+from m3dc.meaning.transform import unit
 
 Points = NDArray[np.float64]
 

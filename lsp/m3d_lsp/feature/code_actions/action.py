@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from lsprotocol import types
 
-from m3dc import Diagnostic, ast
+from m3dc import Diagnostic
 from m3dc.analysis import Analysis
+from m3dc.syntax.parse import ast
 
 from ...snapshot import Snapshot
 from ...text import Span

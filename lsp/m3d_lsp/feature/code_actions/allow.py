@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3dc.directives import ALLOW, heading_end
+from m3dc.diagnostics.directives import ALLOW, heading_end
 
 from ...comments import comments
 from .action import Action, Edit, Site

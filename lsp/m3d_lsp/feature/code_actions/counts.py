@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from lsprotocol import types
 
 import m3dc
-from m3dc import ast, program
+from m3dc.meaning import program
+from m3dc.syntax.parse import ast
 
 from .action import Action, Edit, Site
 

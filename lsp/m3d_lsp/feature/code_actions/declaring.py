@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import count
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 from tree_sitter_m3d.table import LANGUAGE
 
 from ...comments import comments

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 
 from ...names import Occurrence, Role, names
 from ...text import Span

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from lsprotocol import types
 
-from m3dc import ast
+from m3dc.syntax.parse import ast
 
 from ...standing import standing
 from .action import Action, Edit, Site

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3dc import ast
-from m3dc.cut import cut
+from m3dc.syntax.parse import ast
+from m3dc.text.cut import cut
 
 from ...names import Role, names
 from ...text import Span

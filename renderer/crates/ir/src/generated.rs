@@ -1,4 +1,4 @@
-//! Made by `make generate` from compiler/m3dc/ir.py: the kinds of rows, and what a scene says once.
+//! Made by `make generate` from compiler/m3dc/ir/tables.py: the kinds of rows, and what a scene says once.
 
 use serde::Deserialize;
 

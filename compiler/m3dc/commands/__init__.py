@@ -1,0 +1,1 @@
+"""The commands m3dc and m3dfmt."""

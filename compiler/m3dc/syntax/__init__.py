@@ -1,0 +1,1 @@
+"""From text to the abstract syntax tree, and what is wrong where the text is broken."""

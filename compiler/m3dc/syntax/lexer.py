@@ -1,0 +1,131 @@
+"""The tokens of a text that may be broken: what is a token of no scene is one here all the same, or is passed over like
+a blank, and reported (a comment of another language, a control character, a no-break space)."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable
+from typing import NamedTuple
+
+from tree_sitter_m3d.table import LANGUAGE
+
+from ..text.span import Span
+
+_BLANKS = re.compile(rb"[ \t\r\n\f\v]*")
+_TOKEN = re.compile(
+    rb"""(?P<number> [+-]?\.?[0-9] (?: [eE][+-] | [A-Za-z0-9_.] )* )
+       | (?P<word> [A-Za-z][A-Za-z0-9_]* )
+       | (?P<comment> /(?!/\*)/ (?: (?!/\*|\*/) [^\r\n] )* | <!--.*?--> | \#(?=[\s\#!]|\Z) (?: (?!/\*|\*/) [^\r\n] )*
+            | --(?=[ ]) (?: (?!/\*|\*/) [^\r\n] )* )
+       | (?P<mark> [{}<>,;=] )
+       | (?P<string> "[^"\r\n]*" | '[^'\r\n]*' | \xe2\x80\x9c[^\r\n]*?\xe2\x80\x9d )
+       | (?P<hash> \#[A-Za-z0-9_]+ )
+       | (?P<control> [\x00-\x08\x0e-\x1f\x7f] )
+       | (?P<other> \*/ | [\xc2-\xf4][\x80-\xbf]+ | . )""",
+    re.VERBOSE | re.DOTALL,
+)
+_COMMENT_MARK = re.compile(rb"/\*|\*/")
+_NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)+")
+
+
+class Token(NamedTuple):
+    """`kind` is `keyword`, `word`, `number`, `string`, `hash`, `end`, the punctuation mark itself, `name` for a word
+    with letters that no name has, or `other` for any other character. `first` on its line; after a `gap`."""
+
+    kind: str
+    start: int
+    end: int
+    text: str
+    first: bool
+    gap: bool
+
+    @property
+    def span(self) -> Span:
+        return self.start, self.end
+
+
+# Told what is passed over: its kind (`comment`, `control`, `blank`), place and text.
+Passed = Callable[[str, Span, str], None]
+
+
+class Lexer:
+    """Reads tokens from byte `at` on, up to `end`. Of the bytes in `ignored` nothing is made; at each of the places
+    `closed`, in order, a `}` is read that is not there."""
+
+    def __init__(self, data: bytes, end: int, passed: Passed) -> None:
+        self.data = data
+        self.end = end
+        self.at = 0
+        self.ignored: set[int] = set()
+        self.closed: list[int] = []
+        self._passed = passed
+
+    def next(self) -> Token:
+        """The token that comes next, and past it."""
+        data, before = self.data, self.at
+        at = before
+        while True:
+            blanks = _BLANKS.match(data, at)
+            at = blanks.end() if blanks else at
+            if self.closed and self.closed[0] <= at:
+                return self._token("}", self.closed.pop(0), 0, before)
+            if at >= self.end:
+                return self._token("end", self.end, 0, before)
+            if at in self.ignored:
+                at += 1
+                continue
+            if data.startswith(b"/*", at):
+                at = comment_end(data, at) or self.end
+                continue
+            match = _TOKEN.match(data, at)
+            assert match is not None
+            kind, length = str(match.lastgroup), min(match.end(), self.end) - at
+            if kind in ("comment", "control"):
+                self._passed(kind, (at, at + length), self._text(at, at + length))
+                at += length
+                continue
+            if kind == "other" and (blank := self._blank(at, at + length)):
+                self._passed("blank", (at, at + length), blank)
+                at += length
+                continue
+            return self._classified(kind, at, length, before)
+
+    def _classified(self, kind: str, at: int, length: int, before: int) -> Token:
+        text = self._text(at, at + length)
+        if kind == "mark":
+            return self._token(text, at, length, before)
+        if kind == "word" or (kind == "other" and (text == "_" or text.isalpha())):
+            more = _NAME_GOES_ON.match(self.data, at)
+            whole = self._text(at, more.end()) if more else text
+            letters = len(next((whole[:i] for i, c in enumerate(whole) if not (c.isalnum() or c == "_")), whole))
+            whole = whole[:letters]
+            if kind == "other" or len(whole) > len(text):
+                return self._token("name", at, len(whole.encode()), before)
+            return self._token("keyword" if text in LANGUAGE.keywords else "word", at, length, before)
+        return self._token(kind, at, length, before)
+
+    def _token(self, kind: str, start: int, length: int, before: int) -> Token:
+        self.at = max(start + length, before)
+        gap = self.data[before:start]
+        return Token(kind, start, start + length, self._text(start, start + length), b"\n" in gap, bool(gap))
+
+    def _text(self, start: int, end: int) -> str:
+        return self.data[start:end].decode("utf-8", "replace")
+
+    def _blank(self, start: int, end: int) -> str:
+        """What a character is called that looks like none or like a blank; "" for any other."""
+        text = self._text(start, end)
+        if len(text) != 1 or unicodedata.category(text) not in ("Zs", "Zl", "Zp", "Cf", "Cc"):
+            return ""
+        return unicodedata.name(text, f"character U+{ord(text):04X}").lower()
+
+
+def comment_end(data: bytes, start: int) -> int | None:
+    """Where the comment ends that begins at a byte; None where it is never closed."""
+    depth = 0
+    for mark in _COMMENT_MARK.finditer(data, start):
+        depth += 1 if mark[0] == b"/*" else -1
+        if depth == 0:
+            return mark.end()
+    return None

@@ -1,0 +1,1 @@
+"""Text and its places: sources, spans, comments, and what differs between two texts."""

@@ -156,6 +156,7 @@ class Language:
         self.limits: Mapping[str, int] = {name: int(most) for name, most in table["limit"].items()}
         self.reserved: tuple[str, ...] = tuple(table["reserved"])
         self.elsewhere: Mapping[str, str] = table["elsewhere"]
+        self.colours: Mapping[str, str] = table["colour"]
         self.kinds: dict[str, Argument] = {kind: _kind(kind, entry) for kind, entry in table["argument"].items()}
         self.basics: dict[str, Basic] = {
             keyword: Basic(keyword, _default(entry["default"]), entry["says"], entry["thesis"])

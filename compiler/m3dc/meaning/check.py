@@ -203,8 +203,8 @@ class Checker:
             self._words = Words(other for other, _ in entries if other.isidentifier() and other not in _KEYWORDS)
         return self._words.nearest(name)
 
-    def _lookup(self, name: ast.Name) -> Known | None:
-        """What is known of a variable; reports an undeclared name."""
+    def _lookup(self, name: ast.Name, wanted: str = "", also: str = "") -> Known | None:
+        """What is known of a variable; reports an undeclared name, and what there is to say of it `also`."""
         known = self.known.get(name.text)
         if known is None and self.known.get(_lost(name.text)) is None:
             near = self._near(name.text)
@@ -215,14 +215,18 @@ class Checker:
                 meant = self.known[near]
                 self.known[near] = meant._replace(assigned=True, used=True, unknown=meant.type in LANGUAGE.basics)
             else:
-                detail, fix = f"{name.text} is not declared in a VARIABLES block before here", None
+                detail, fix = f"{name.text} is not declared in a VARIABLES block before here{also}", None
+                colour = LANGUAGE.colours.get(name.text.lower()) if wanted == "VECTOR" else None
+                if colour is not None:
+                    detail += f"; there are no colours by name: {name.text} is {colour}"
+                    fix = Fix(f"Write {colour}", name.span, colour)
             self._findings.add("M3D0202", name.span, detail, fix=fix)
         return known
 
-    def _has_type(self, name: ast.Name, wanted: str) -> bool:
+    def _has_type(self, name: ast.Name, wanted: str, also: str = "") -> bool:
         if not self._names:
             return True
-        known = self._lookup(name)
+        known = self._lookup(name, wanted, also)
         if known is None:
             return False
         if not known.type:
@@ -308,7 +312,8 @@ class Checker:
         if entry.once is not None and self._names:
             inside = None if entry.keyword in LANGUAGE.top else seen
             first = self._only_once(entry.keyword, item.keyword.span, entry.once, inside)
-        known = item.name is None or self._has_type(item.name, entry.keyword)
+        also = "; what a thing is called stands in a comment" if item.body is not None else ""
+        known = item.name is None or self._has_type(item.name, entry.keyword, also)
         body, broken = ((), _NONE) if item.body is None else self._members(item.body, entry)
         if not first or not known:
             return None
@@ -393,9 +398,22 @@ class Checker:
     ) -> program.Statement | None:
         wanted, given = entry.arguments, item.arguments
         good = True
+        bare = len(wanted) == 1 and wanted[0].shape == "vector" and not any(isinstance(a, ast.Vector) for a in given)
+        if bare and (len(given) > 2 or (len(given) == 2 and isinstance(given[0], ast.Number))):
+            span = given[0].span[0], given[-1].span[1]
+            text = self._data[span[0] + self._start : span[1] + self._start].decode("utf-8", "replace")
+            plain = len(given) == 3 and "/*" not in text
+            fix = Fix(f"Write < {text} >", span, f"< {text} >", certain=True) if plain else None
+            self._findings.add("M3D0102", span, "a vector stands between < and >", fix=fix)
+            return None
         for expected, argument in zip(wanted, given, strict=False):
-            good &= self._argument(argument, expected)
+            good &= self._argument(argument, expected, entry)
         if len(given) > len(wanted):
+            decimal = self._decimal_comma(given) if len(wanted) == 1 else None
+            if decimal is not None:
+                detail = f"{entry.keyword} {takes(entry)}; a decimal point is a point: {decimal.text}"
+                self._invalid(block, decimal.span, detail, decimal)
+                return None
             fix = self._flag_alone(item) if entry.is_flag else None
             self._invalid(block, given[len(wanted)].span, f"{entry.keyword} {takes(entry)}", fix)
             return None
@@ -410,6 +428,15 @@ class Checker:
             return None
         return program.Statement(entry, given, item.span) if good else None
 
+    def _decimal_comma(self, given: tuple[ast.Argument, ...]) -> Fix | None:
+        """What to write for `2,5`, if that is what stands there: maybe two numbers were meant."""
+        start, end = given[0].span[0], given[-1].span[1]
+        text = self._data[start + self._start : end + self._start]
+        if not _DECIMAL_COMMA.fullmatch(text):
+            return None
+        new = text.replace(b",", b".").decode()
+        return Fix(f"Write {new}", (start, end), new)
+
     def _flag_alone(self, item: ast.Statement) -> Fix | None:
         """The fix of a flag with an argument that says whether it is meant."""
         start, end = item.keyword.span[1], item.arguments[-1].span[1]
@@ -418,7 +445,9 @@ class Checker:
             return Fix(f"Write {item.keyword.text} alone", (start, end), "", certain=True)
         return Fix(f"Leave {item.keyword.text} out", self._cut(item.span), "") if said in _NO else None
 
-    def _argument(self, argument: ast.Argument, expected: language.Argument) -> bool:
+    def _argument(
+        self, argument: ast.Argument, expected: language.Argument, entry: language.Statement | None = None
+    ) -> bool:
         match argument:
             case ast.Name():
                 return self._is_usable(argument, "VECTOR" if expected.shape == "vector" else "NUMBER")
@@ -428,7 +457,11 @@ class Checker:
                 return _is_known(argument)
             case _:
                 found = "a vector" if isinstance(argument, ast.Vector) else "a number"
-                self._findings.add(_SHAPE_CODE[expected.shape], argument.span, f"found {found}")
+                self._findings.add(
+                    _SHAPE_CODE[expected.shape],
+                    argument.span,
+                    f"found {found}" + (f"; {entry.keyword} {takes(entry)}" if entry else ""),
+                )
                 return False
 
     # --- tables -------------------------------------------------------------------------------------------------
@@ -496,6 +529,7 @@ class Checker:
 _YES = frozenset((b"1", b"on", b"true", b"yes"))
 _NO = frozenset((b"0", b"off", b"false", b"no"))
 
+_DECIMAL_COMMA = re.compile(rb"[+-]?[0-9]+,[0-9]+([eE][+-]?[0-9]+)?")
 _NUMERAL = re.compile(rb"[^\s<>,{}]*")
 _NUMERAL_END = re.compile(rb"[^\s<>,{}]*\Z")
 _LONG_NUMERAL = 64  # bytes

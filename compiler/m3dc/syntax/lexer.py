@@ -18,13 +18,17 @@ _TOKEN = re.compile(
        | (?P<word> [A-Za-z][A-Za-z0-9_]* )
        | (?P<comment> /(?!/\*)/ (?: (?!/\*|\*/) [^\r\n] )* | <!--.*?--> | \#(?=[\s\#!]|\Z) (?: (?!/\*|\*/) [^\r\n] )*
             | --(?=[ ]) (?: (?!/\*|\*/) [^\r\n] )* )
+       | (?P<remark> %+[ \t]+[A-Za-z] (?: (?!/\*|\*/) [^\r\n] )*
+            | ;+[ \t]+[A-Za-z] (?: (?!/\*|\*/) [^\r\n{}<>=;] )* (?=[\r\n]|\Z) )
+       | (?P<conflict> (?<![^\r\n]) (?: <{7} | ={7} | >{7} ) (?=[ \r\n]|\Z) (?: (?!/\*|\*/) [^\r\n] )* )
        | (?P<mark> [{}<>,;=] )
-       | (?P<string> "[^"\r\n]*" | '[^'\r\n]*' | \xe2\x80\x9c[^\r\n]*?\xe2\x80\x9d )
+       | (?P<string> \"\"\".*?\"\"\" | '''.*?''' | "[^"\r\n]*" | '[^'\r\n]*' | \xe2\x80\x9c[^\r\n]*?\xe2\x80\x9d )
        | (?P<hash> \#[A-Za-z0-9_]+ )
        | (?P<control> [\x00-\x08\x0e-\x1f\x7f] )
-       | (?P<other> \*/ | [\xc2-\xf4][\x80-\xbf]+ | . )""",
+       | (?P<other> \*/ | \*\*(?!/) | [-+*/]= | \+\+ | :: | [\xc2-\xf4][\x80-\xbf]+ | . )""",
     re.VERBOSE | re.DOTALL,
 )
+_BEFORE = re.compile(rb"(?:\A|[\r\n{}])[ \t]*\Z")
 _COMMENT_MARK = re.compile(rb"/\*|\*/")
 _NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)+")
 
@@ -45,7 +49,7 @@ class Token(NamedTuple):
         return self.start, self.end
 
 
-# Told what is passed over: its kind (`comment`, `control`, `blank`), place and text.
+# Told what is passed over: its kind (`comment`, `control`, `blank`, `conflict`), place and text.
 Passed = Callable[[str, Span, str], None]
 
 
@@ -81,7 +85,12 @@ class Lexer:
             match = _TOKEN.match(data, at)
             assert match is not None
             kind, length = str(match.lastgroup), min(match.end(), self.end) - at
-            if kind in ("comment", "control"):
+            if kind == "remark":
+                if self._is_remark(at, at + length):
+                    kind = "comment"
+                else:
+                    kind, length = "mark" if data[at : at + 1] == b";" else "other", 1
+            if kind in ("comment", "control", "conflict"):
                 self._passed(kind, (at, at + length), self._text(at, at + length))
                 at += length
                 continue
@@ -90,6 +99,16 @@ class Lexer:
                 at += length
                 continue
             return self._classified(kind, at, length, before)
+
+    def _is_remark(self, start: int, end: int) -> bool:
+        """Whether what begins with % or ; is a comment: it stands alone on its line, or % after a brace, and does not
+        begin with a keyword."""
+        before = self.data[max(start - 100, 0) : start]
+        if not (_BEFORE.search(before) or (start <= 100 and not before.strip())):
+            return False
+        if self.data[start : start + 1] == b";" and before.rstrip(b" \t")[-1:] in (b"{", b"}"):
+            return False
+        return self._text(start, end).lstrip("%; \t").split()[0] not in LANGUAGE.keywords
 
     def _classified(self, kind: str, at: int, length: int, before: int) -> Token:
         text = self._text(at, at + length)

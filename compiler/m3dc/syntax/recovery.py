@@ -8,6 +8,7 @@ once, and goes on. An item in which that was not certain is marked `doubtful`: n
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
@@ -29,7 +30,13 @@ _STATEMENTS = {keyword: entry for block in LANGUAGE.blocks.values() for keyword,
 _BULK = re.compile(rb"[0-9eE+\-.<>,\s]*")
 _HEX_COLOUR = re.compile(r"#(?:[0-9a-fA-F]{3}|[0-9a-fA-F]{6})")
 _VECTOR_WORDS = frozenset({"rgb", "rgba", "rgbf", "rgbt", "srgb", "color", "colour", "vec3", "float3", "vector"})
-_OPERATORS = frozenset("+-*/^%")
+_GLUED = re.compile(r"([A-Za-z]+)([0-9]+)")
+_WORDISH = re.compile(rb"[A-Za-z0-9_.+-]")
+_NUMBERS = re.compile(r"[^\s,]+")
+_DECIMAL_COMMA = re.compile(rb"[0-9],[0-9]")
+_OPERATORS = frozenset([*"+-*/^%", "**"])
+_CHANGES = frozenset(["++", "--", "+=", "-=", "*=", "/="])
+_PARTS = frozenset(["(", "[", ".", "::"])  # what follows a name that something is made or taken of
 _CLOSERS = {"(": ")", "[": "]", "{": "}"}
 _DASHES = frozenset("\u2212\u2013\u2014\u2010\u2011\ufe63\uff0d")
 _LETTERS = "words are of the letters A to Z, digits and underscores"
@@ -164,6 +171,7 @@ class Reader:
         self._closed = False  # whether braces are taken to be where the indentation says
         self._nested_top = False
         self._too_deep = False
+        self._misfit: int | None = None  # where something begins that stands in the block around this one
 
     # --- items --------------------------------------------------------------------------------------------------
 
@@ -232,8 +240,28 @@ class Reader:
                 self._junk(None)
                 return None
 
+    def _hyphened(self) -> Token:
+        """The word that comes next, with all that hyphens join to it, passed."""
+        word = self._next()
+        while self._hyphen_follows(0):
+            self._next()
+            if self._peek().kind in ("word", "keyword"):
+                self._next()
+        return word._replace(end=self._before, text=self._data[word.start : self._before].decode("utf-8", "replace"))
+
+    def _hyphen_follows(self, ahead: int) -> bool:
+        hyphen, after = self._peek(ahead), self._peek(ahead + 1)
+        joined = hyphen.text == "-" and after.kind in ("word", "keyword") and not after.gap
+        return not hyphen.gap and (joined or (hyphen.kind == "number" and hyphen.text[0] == "-"))
+
     def _top_word(self) -> ast.Item | None:
         word, after = self._peek(), self._peek(1)
+        if self._hyphen_follows(1):
+            word = self._hyphened()
+            self._fault("M3D0108", word.span, f"found {word.text!r}; {_LETTERS}")
+            self._skip_group() if self._peek().kind == "{" else self._skip_lines()
+            self._doubtful = True
+            return None
         if after.kind == "=" or (after.text == ":" and self._peek(2).kind == "="):
             return self._assignment()
         opens = after.kind == "{" or (after.kind == "word" and self._peek(2).kind == "{")
@@ -244,16 +272,34 @@ class Reader:
             return self._assignment()
         if after.text == ":" and self._peek(2).kind in ("number", "<", "word"):
             return self._assignment()
+        if after.text in _CHANGES or (after.text in "+-" and self._peek(2).text == after.text):
+            return self._changed()
         if after.kind == "word" and self._peek(2).kind in ("=", ";", ",") and not after.first:
             return self._declared_outside()
         self._next()
         near = nearest(word.text, members(None))
         says = LANGUAGE.elsewhere.get(word.text.lower())
+        if says is None and word.text.upper() in LANGUAGE.keywords:
+            says = f"{place_of(word.text.upper(), ())}; {CAPITALS}"
         says = says or (f"did you mean {near}?" if near else f"a file holds {_TOP_LEVEL}")
         self._fault("M3D0107", word.span, f"found {word.text!r}; {says}")
         self._skip_lines()
         self._doubtful = True
         return None
+
+    def _changed(self) -> None:
+        """`size += 1`, `size++`."""
+        name = self._next()
+        self._next()
+        while not self._peek().first and self._peek().kind not in ("end", "}", ";"):
+            self._next()
+        span = (name.start, self._before)
+        text = self._data[span[0] : span[1]].decode("utf-8", "replace")
+        self._fault("M3D0118", span, f"found {text!r}; write the result: {name.text} = ..")
+        if self._peek().kind == ";":
+            self._next()
+        self._doubtful = True
+        self.names.add(name.text)
 
     def _skip_lines(self) -> None:
         """Pass what belongs to something unknown: up to a line that begins an item."""
@@ -393,11 +439,23 @@ class Reader:
             self._fault("M3D0109", first.span, detail, kind="no type")
             self._skip_declaration()
             return None
+        if first.kind == "word" and after.kind == "keyword" and not after.first and self._peek(1).kind == "word":
+            detail = f"found {first.text!r}; a declaration is a type and a name, such as {after.text} size;"
+            edits = [((first.start, after.start), "")]
+            self._fault("M3D0109", first.span, detail, edits=edits, title="Remove it", kind="before a type", sure=False)
+            first = self._next()
+            type_ = self._keyword(first)
         names: list[ast.Name] = []
         while True:
             name = self._peek()
             if name.kind != "word":
                 self._no_name(name)
+                break
+            if self._hyphen_follows(1):
+                name = self._hyphened()
+                self._fault("M3D0108", name.span, f"found {name.text!r}; {_LETTERS}")
+                self.names.add(name.text)
+                self._skip_declaration()
                 break
             names.append(ast.Name(self._next().text, self._span(name.span)))
             self._check_length(names[-1])
@@ -509,9 +567,8 @@ class Reader:
             if isinstance(value, ast.Name) and self._peek().kind == "{":
                 body = self._body(target, self._type_of(target))
             elif self._peek().kind in (",", "number") and isinstance(value, ast.Number):
-                detail = "a vector stands between < and >"
-                self._fault("M3D0107", self._peek().span, f"{_found(self._peek())}; {detail}")
-                self._skip_values()
+                self._bare_vector(token)
+                value = None
         else:
             at = token.span if not token.first and token.kind != "end" else (self._before, self._before)
             self._fault("M3D0103", at, f"{_found(token)}; a vector < x, y, z > or a block could stand here too")
@@ -538,14 +595,35 @@ class Reader:
             self._doubtful = True
             return False
         also = "; the name of a variable could stand here too" if variable else ""
+        if token.text in ("(", "[", ":"):
+            also = "; what belongs to a block stands between { and }"
         at = token.span if not token.first and token.kind != "end" else (self._before, self._before)
         self._fault("M3D0101", at, f"{_found(token)}{also}", fill="{")
+        if token.text in ("(", "["):
+            self._doubtful = True
+            self._skip_all_brackets()
+            if self._peek().kind == "{":
+                self._skip_group()
+            return False
+        if token.text == ":":
+            token = self._next() and self._peek()
         if not self._has_more_closed(token.start):
             self._doubtful = True
+            if token.first:
+                self._skip_indented(keyword)
             return False
         self._open.append(Token("{", self._before, self._before, "", False, False))
-        del keyword
         return True
+
+    def _skip_indented(self, keyword: Token) -> None:
+        """Pass what belongs to a block without braces: at the top level all up to the next item, elsewhere the lines
+        that are indented more than the keyword's."""
+        margin = _indent(self._data, keyword.start)
+        while (token := self._peek()).kind not in ("end", "}"):
+            item = token.text in members(None) or (token.kind == "word" and self._peek(1).kind == "=")
+            if token.first and (item if not self._open else _indent(self._data, token.start) <= margin):
+                return
+            self._next() if token.kind != "{" else self._skip_group()
 
     def _has_more_closed(self, start: int) -> bool:
         """Whether braces from here on to the next item close more than is open."""
@@ -601,6 +679,8 @@ class Reader:
             return
         if not self._strict and self._nested_top:
             raise _AgainError
+        if not self._closed and self._misfit is not None and len(self._open) == 1:
+            raise _AgainError([self._misfit])
         marked = self._marks.get(self._start, 0)
         if not self._closed and len(self._findings.found) == marked and len(self._open):
             end = token.start if token.kind != "end" else self._lexer.end
@@ -662,6 +742,10 @@ class Reader:
                 self._skip_group()
             return None
         if token.kind == "keyword":
+            outer = LANGUAGE.blocks.get(self._around[-2]) if len(self._around) > 1 else None
+            misfit = block is not None and outer is not None and token.text not in members(block)
+            if misfit and self._misfit is None and outer is not None and token.text in members(outer):
+                self._misfit = self._before
             return self._keyword_member(block)
         if token.kind == "word" and self._peek(1).kind == "=":
             near = certain(token.text, members(block))
@@ -673,8 +757,11 @@ class Reader:
                 return None
         if token.kind == "word":
             return self._word_member(block)
+        if token.kind == "string" and self._peek(1).text in (":", "="):
+            return self._quoted_key(block)
         if token.kind == "<" or token.kind == "number":
-            self._invalid(block, token.span, f"{_found(token)}; a value stands after its keyword", kind="value")
+            holds = f": {block.keyword} holds {_some(block.members())}" if block is not None else ""
+            self._invalid(block, token.span, f"{_found(token)}; a value stands after its keyword{holds}", kind="value")
             self._doubtful = True
             self._skip_values()
             return None
@@ -690,7 +777,8 @@ class Reader:
         known = ast.Keyword(keyword, self._span(token.span))
         entry = (block.statements.get(keyword) if block else None) or _STATEMENTS.get(keyword)
         inner = LANGUAGE.blocks.get(keyword)
-        self._superfluous_marks()
+        if not (inner is not None and entry is None and self._peek().text == ":" and self._peek(1).first):
+            self._superfluous_marks()
         if keyword in _TABLES:
             return self._table(known, token, block)
         if self._peek().kind in ("string", "name") and inner is not None:
@@ -709,6 +797,22 @@ class Reader:
             entry = None
         return ast.Statement(known, self._arguments(entry, block, keyword), self._from(token))
 
+    def _quoted_key(self, block: Block | None) -> ast.Item | None:
+        """`"RADIUS": 2`, as in JSON."""
+        word, mark = self._next(), self._next()
+        inner = word.text[1:-1].strip()
+        meant = certain(inner, members(block))
+        if meant is None:
+            says = LANGUAGE.elsewhere.get(inner.lower()) or "keywords stand without quotes and colons"
+            self._invalid(block, word.span, f"{_found(word)}; {says}")
+            self._doubtful = True
+            self._skip_unknown()
+            return None
+        edits = [((word.start, mark.end), meant)]
+        says = f"{_found(word)}; keywords stand without quotes, and nothing stands between them and what follows"
+        self._invalid(block, word.span, says, edits=edits, title=f"Write {meant}", kind="quoted keyword")
+        return self._keyword_member(block, word, meant)
+
     def _is_source(self, word: Token) -> bool:
         """Whether a word after a block's keyword is the variable that the block copies."""
         after = self._peek(1)
@@ -718,7 +822,17 @@ class Reader:
 
     def _word_member(self, block: Block | None) -> ast.Item | None:
         """What begins with a word that is no keyword: what is meant by it, if that can be told."""
-        word = self._next()
+        word = self._hyphened()
+        glued = _GLUED.fullmatch(word.text)
+        if glued and block is not None and glued[1].upper() in block.statements and word.text not in members(block):
+            meant = glued[1].upper()
+            at = word.start + len(meant)
+            detail = f"{_found(word)}; a blank stands between a keyword and its value"
+            new = f"{meant} {glued[2]}"
+            self._invalid(block, word.span, detail, edits=[(word.span, new)], title=f"Write {new}")
+            self._ahead = []
+            self._lexer.at = self._before = at
+            return self._keyword_member(block, word._replace(end=at, text=meant), meant)
         fits = [keyword for keyword in members(block) if self._fits(keyword, block)]
         spelt = word.text.upper()
         meant = certain(word.text, fits)
@@ -785,7 +899,10 @@ class Reader:
             if token.kind == "{":
                 self._skip_group()
                 return
-            if token.kind in ("}", "end", "keyword", ";") or self._ends_all(token):
+            if token.kind == ";":
+                self._next()
+                return
+            if token.kind in ("}", "end", "keyword") or self._ends_all(token):
                 return
             if token.first and token.kind not in ("<", "number", ","):
                 return
@@ -891,6 +1008,7 @@ class Reader:
 
     def _arguments(self, entry: Statement | None, block: Block | None, keyword: str) -> tuple[ast.Argument, ...]:
         found: list[ast.Argument] = []
+        first = self._peek()
         wanted = len(entry.arguments) if entry else 4
         shape = None if entry is None or entry.is_flag else entry.arguments[0].shape
         while self._starts_value() and self._is_argument(entry, block):
@@ -907,17 +1025,35 @@ class Reader:
             else:
                 break
         token = self._peek()
+        if token.kind in (">", "number") and shape == "vector" and first.kind == "number":
+            self._bare_vector(first)
+            return tuple(found)
         if token.kind in ("number", "<") and found and entry is not None:
             self._invalid(block, token.span, f"{_found(token)}; {keyword} {takes(entry)}")
             self._doubtful = True
             self._skip_values()
         return tuple(found)
 
+    def _bare_vector(self, first: Token) -> None:
+        """Report the numbers from `first` on, of which one is still to come, as a vector without its brackets."""
+        while (token := self._peek()).kind in ("number", ","):
+            self._next()
+        numbers = _NUMBERS.findall(self._data[first.start : self._before].decode("utf-8", "replace"))
+        if token.kind == ">":
+            self._next()
+        edits = [((first.start, self._before), f"< {', '.join(numbers)} >")] if len(numbers) == 3 else None
+        title = f"Write {edits[0][1]}" if edits else ""
+        span = (first.start, self._before)
+        self._fault("M3D0102", span, "a vector stands between < and >", edits=edits, title=title)
+        self._doubtful = True
+
     def _is_argument(self, entry: Statement | None, block: Block | None) -> bool:
         """Whether a word here is an argument, not a keyword that is written in another way."""
         token = self._peek()
         if token.kind == "{":
             return self._is_bracketed()
+        if token.kind == "string":
+            return self._peek(1).text not in (":", "=")
         if token.kind != "word":
             return True
         if self._peek(1).kind in ("{", "="):
@@ -955,16 +1091,30 @@ class Reader:
             self._invalid_here(token.span, says, edits=edits, title="Remove it")
             self._next()
             return value
-        if token.text == "(" and first.kind == "word" and self._before == first.end:
-            self._skip_brackets()
+        if token.text in _PARTS and first.kind == "word" and self._before == first.end and not token.gap:
+            self._part()
+            return self._expression(first)
+        if token.text == "?" or (token.kind == ">" and self._peek(1).kind in ("number", "word") and shape == "number"):
+            while (token := self._peek()).kind not in ("keyword", "{", "}", "end", ";") and not token.first:
+                self._next()
             return self._expression(first)
         if (operator and self._operand_follows(1)) or (signed and isinstance(value, (ast.Number, ast.Name)) and shape):
             return self._expression(first)
         return value
 
+    def _part(self) -> None:
+        """Pass what follows a name in `f(x)`, `a[0]`, `a.x` and `a::b`."""
+        while (token := self._peek()).text in _PARTS and not token.gap:
+            if token.text in _CLOSERS:
+                self._skip_brackets()
+                continue
+            self._next()
+            if self._peek().kind in ("word", "keyword", "number") and not self._peek().gap:
+                self._next()
+
     def _operand_follows(self, ahead: int) -> bool:
         token = self._peek(ahead)
-        return token.kind in ("number", "word") or token.text in ("(", "-", "+")
+        return token.kind in ("number", "word", "<") or token.text in ("(", "-", "+")
 
     def _expression(self, first: Token) -> None:
         """The rest of an expression: reported as one."""
@@ -979,6 +1129,8 @@ class Reader:
                 operand = self._peek()
                 if operand.text in ("(", "["):
                     self._skip_brackets()
+                elif operand.kind == "<":
+                    self._vector_skipped()
                 else:
                     self._next()
                     if self._peek().text == "(" and operand.kind == "word":
@@ -1080,11 +1232,14 @@ class Reader:
             number = self._number(after.span)
             return number._replace(value=-number.value if sign == "-" else number.value,
                                    span=self._span((token.start, after.end)))  # fmt: skip
-        if after.kind == "word" or after.text in ("(", "-", "+"):
+        if after.kind in ("word", "<") or after.text in ("(", "-", "+"):
             self._next() if after.kind == "word" else None
+            if after.kind == "<":
+                self._vector_skipped()
             if after.text == "(":
                 self._skip_brackets()
-            says = f"{_found(token)}; a sign belongs to a number, not to a variable: write another variable"
+            says = f"{_found(token)}; a sign belongs to a number, not to a "
+            says += "vector: write it in front of each" if after.kind == "<" else "variable: write another variable"
             self._fault("M3D0118", (token.start, self._before), says)
         else:
             self._invalid_here(token.span, _found(token))
@@ -1116,6 +1271,13 @@ class Reader:
         text = self._data[start:end].decode("utf-8", "replace").strip()
         if simple and len(inside) == 3 and not any(isinstance(each, ast.Vector) for each in inside):
             new = f"< {text} >"
+            values = [each.value for each in inside if isinstance(each, ast.Number)]
+            if word is not None and word.text.lower() == "rgb" and len(values) == 3 and 1 < max(values) <= 255:
+                new = f"< {', '.join(f'{round(value / 255, 3):g}' for value in values)} >"
+                says = f"a colour is three numbers between 0 and 1: {new}"
+                self._fault("M3D0102", span, says, edits=[(span, new)], title=f"Write {new}")
+                self._doubtful = True
+                return None
             self._fault("M3D0102", span, "a vector stands between < and >", edits=[(span, new)], title=f"Write {new}")
             components = tuple(each for each in inside if not isinstance(each, ast.Vector))
             return ast.Vector(components, self._span(span))
@@ -1136,6 +1298,9 @@ class Reader:
     def _vector(self, opener: Token) -> ast.Vector | None:
         components: list[ast.Number | ast.Name] = []
         good = True
+        doubled = self._peek().kind == "<" and not self._peek().gap
+        if doubled:
+            self._superfluous(self._next(), "a vector stands between < and >")
         while True:
             token = self._peek()
             if token.kind in ("number", "word") or token.text in ("-", "+", "(") or token.text in _DASHES:
@@ -1151,6 +1316,8 @@ class Reader:
             if token.kind == ",":
                 if len(components) == 3 and self._peek(1).kind in ("number", "word"):
                     says = f"{_found(token)}; a vector has three numbers < x, y, z >"
+                    if _DECIMAL_COMMA.search(self._data, opener.end, token.end):
+                        says += "; a decimal point is a point, as in 2.5"
                     self._fault("M3D0101", token.span, says, fill=">")
                     self._doubtful = True
                     while self._peek().kind in (",", "number", "word"):
@@ -1174,6 +1341,9 @@ class Reader:
             good = False
         if token.kind == ">":
             self._next()
+            if doubled and self._peek().kind == ">":
+                more = self._next()
+                self._fault("M3D0117", more.span, "", edits=[(more.span, "")], kind="<")
         elif count >= 3 or token.kind in ("}", "keyword", "end", "word"):
             if count >= 3:
                 self._close_vector(token)
@@ -1212,8 +1382,8 @@ class Reader:
         first = self._peek()
         value = self._operand(None)
         token = self._peek()
-        if token.text == "(" and first.kind == "word" and not token.gap:
-            self._skip_brackets()
+        if token.text in _PARTS and first.kind == "word" and not token.gap:
+            self._part()
             self._expression(first)
             return None
         if token.kind == "other" and token.text in _OPERATORS and self._operand_follows(1):
@@ -1243,6 +1413,26 @@ class Reader:
             if depth <= 0:
                 return
 
+    def _skip_all_brackets(self) -> None:
+        """Pass brackets with all that is in them, whatever it is; where they are not closed, the rest of the line."""
+        lexer = Lexer(self._data, self._lexer.end, _unheard)
+        lexer.at = self._peek().start
+        open_ = ""
+        while (token := lexer.next()).kind != "end" and not (token.first and token.text in members(None)):
+            if token.text in _CLOSERS:
+                open_ += token.text
+            elif token.text in _CLOSERS.values():
+                if _CLOSERS[open_[-1]] != token.text:
+                    break
+                open_ = open_[:-1]
+            if not open_:
+                while self._peek().start <= token.start:
+                    self._next()
+                return
+        self._next()
+        while not self._peek().first and self._peek().kind not in ("end", "}"):
+            self._next()
+
     def _skip_values(self) -> None:
         """Pass values and what is between them."""
         while (token := self._peek()).kind in ("number", "<", ",", ">"):
@@ -1260,6 +1450,24 @@ class Reader:
     def _junk(self, block: Block | None, code: str = "") -> None:
         """Pass what can not stand here, and say so."""
         token = self._next()
+        after = self._peek()
+        if (
+            token.text in ("-", "+", "*", "\u2022")
+            and after.kind in ("keyword", "word")
+            and (token.first or not self._open)
+        ):
+            self._superfluous(token, "statements follow one another without a mark before them", sure=False)
+            return
+        if token.text in (".", "$", "@", "\\") and after.kind in ("keyword", "word") and not after.gap:
+            self._next()
+            text = token.text + after.text
+            says = f"found {text!r}; {_LETTERS}"
+            meant = certain(after.text, members(block)) if token.text == "." else None
+            says += f"; did you mean {meant}?" if meant else ""
+            self._invalid(block, (token.start, after.end), says)
+            self._doubtful = True
+            self._skip_unknown() if self._open else self._skip_lines()
+            return
         if token.kind == ";":
             self._superfluous(token, "nothing ends with a ; but a declaration in VARIABLES")
         elif token.kind == ",":
@@ -1281,6 +1489,14 @@ class Reader:
                 says += "; a value stands after its keyword"
             elif token.kind == "name":
                 says += f"; {_LETTERS}"
+            elif (number := _other_number(token.text)) is not None:
+                says += f"; a number is written with the digits 0 to 9: {number}"
+            elif token.text == "~":
+                says += "; a blank stands between a keyword and its value"
+            elif token.text == "-" and not self._open:
+                says += "; a scene needs no marks between its parts"
+            elif token.kind == "other" and token.text not in _CLOSERS.values():
+                says += "; it has no meaning in a scene: remove it"
             if code:
                 self._fault(code, token.span, says)
             else:
@@ -1327,7 +1543,7 @@ class Reader:
             )
             self._doubtful = True
             return
-        inner = token.text[1:-1].strip()
+        inner = token.text.strip("\"'\u201c\u201d").strip()
         edits = (
             [(token.span, f"/* {inner} */")] if "*/" not in inner and "/*" not in inner and inner.isascii() else None
         )
@@ -1339,9 +1555,9 @@ class Reader:
         while self._peek().text in ("=", ":"):
             self._superfluous(self._next(), "a keyword is followed by its value, with nothing between them")
 
-    def _superfluous(self, token: Token, says: str) -> None:
+    def _superfluous(self, token: Token, says: str, *, sure: bool = True) -> None:
         self._fault("M3D0117", token.span, says, fill=f"'{token.text}'", edits=[(token.span, "")],
-                    title=f"Remove '{token.text}'", kind=token.text)  # fmt: skip
+                    title=f"Remove '{token.text}'", kind=token.text, sure=sure)  # fmt: skip
 
     def _missing(self, mark: str) -> None:
         """Report a punctuation mark that is missing before the next token: there, or, if that is on another line, at
@@ -1407,7 +1623,11 @@ class Reader:
             self._fault("M3D0119", span, says, edits=[(span, " ")],
                         title="Write a blank", kind="blank")  # fmt: skip
             return
-        mark = re.match(r"//+|#+!?|<!--|--", text)
+        if kind == "conflict":
+            says = f"{text[:7]} is a mark of two versions that could not be merged: keep one, and remove the marks"
+            self._fault("M3D0107", span, says, kind="conflict")
+            return
+        mark = re.match(r"//+|#+!?|<!--|--|%+|;+", text)
         assert mark is not None
         inner = text[mark.end() :].removesuffix("-->").strip()
         edits = [(span, f"/* {inner} */")] if "*/" not in inner and "/*" not in inner else None
@@ -1445,7 +1665,7 @@ class Reader:
     def _settle(self) -> None:
         """Give what was reported of the item its fixes."""
         for habit in self._habits.values():
-            edits = sorted(habit.edits or ())
+            edits = [_apart(self._data, edit) for edit in sorted(habit.edits or ())]
             if not edits or habit.place >= len(self._findings.found):
                 continue
             (start, _), (_, end) = edits[0][0], edits[-1][0]
@@ -1465,6 +1685,14 @@ def _unheard(kind: str, span: Span, text: str) -> None:
     """Of what is passed over in looking ahead nothing is said."""
 
 
+def _apart(data: bytes, edit: tuple[Span, str]) -> tuple[Span, str]:
+    """An edit with a blank where without it two words or numbers would become one, as in `RADIUS=2` without its `=`."""
+    (start, end), new = edit
+    left, right = data[start - 1 : start], data[end : end + 1]
+    glued = new[-1].isalnum() and right.isalnum() if new else _WORDISH.match(left) and _WORDISH.match(right)
+    return (edit[0], f"{new} ") if glued and end > start else edit
+
+
 def _edited(data: bytes, edits: list[tuple[Span, str]]) -> bytes:
     """The text from the first edit to the last, with all of them made."""
     pieces: list[bytes] = []
@@ -1481,6 +1709,12 @@ def _found(token: Token) -> str:
 
 def _shown(token: Token) -> str:
     return repr(token.text if len(token.text) <= 40 else f"{token.text[:37]}...")
+
+
+def _other_number(text: str) -> str | None:
+    """What a digit or fraction is worth that is none of 0 to 9, as a numeral; None for any other text."""
+    value = unicodedata.numeric(text, None) if len(text) == 1 else None
+    return None if value is None else f"{value:.6g}"
 
 
 def _some(keywords: Iterable[str], most: int = 6) -> str:

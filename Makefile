@@ -27,7 +27,7 @@ demo: programs ## Render the merman scene with straight and with bent rays into 
 	$(BIN)/m3dc -o $(OUT)/merman.m3ir examples/merman.m3d
 	$(BIN)/m3d-render $(OUT)/merman.m3ir --straight -o $(OUT)/merman-straight.png
 	$(BIN)/m3d-render $(OUT)/merman.m3ir -o $(OUT)/merman-mirage.png
-	@echo "What is there:      $(CURDIR)/$(OUT)/merman-straight.png"
+	@echo "What is there:       $(CURDIR)/$(OUT)/merman-straight.png"
 	@echo "What one sees of it: $(CURDIR)/$(OUT)/merman-mirage.png"
 
 test: tools ## Run all tests

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from m3dc_command import EXIT_STATUS, ended
+from m3dc_command import ended
 from m3dc_command import parser as command_parser
 
 # How long one thread may keep the others waiting: what is long work to the server is a blink to a person.
@@ -27,7 +27,7 @@ def _parser() -> argparse.ArgumentParser:
         "m3d-lsp",
         "m3d-lsp",
         description="Language server for Mirage3D scenes.",
-        epilog=f"{EXIT_STATUS}.",
+        epilog="Exit status: 0 fine, 1 ended without a shutdown request, 2 usage or files, 130 interrupted.",
     )
     parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (the default)")
     parser.add_argument("--tcp", metavar="[HOST:]PORT", help="listen on a port instead, for one client")

@@ -416,9 +416,9 @@ CATALOGUE: dict[str, Entry] = {
     ),
     "M3D0506": _warning(
         "Observer stands on a layer boundary",
-        "The eye is within a tenth of a millimetre of a point of the PROFILE, where the air begins to bend rays "
-        "differently: where it bends them away on both sides, level rays just above and just below part, and the "
-        "picture is torn at the height of the eye.",
+        "The eye is within a tenth of a millimetre of a point of the PROFILE, where the curvature of rays changes at once. "
+        "If the layer below bends rays down and the layer above bends them up, rays just below and just above the "
+        "horizontal go different ways, and the picture has a gap at the height of the eye.",
         "SCENE { SKY { } VIEW { FROM < 20, 0, 5 > } MIRAGE { PROFILE { 0 10 5 11 20 12 } } }",
         "SCENE { SKY { } VIEW { FROM < 20, 0, 5.1 > } MIRAGE { PROFILE { 0 10 5 11 20 12 } } }",
     ),

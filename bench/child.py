@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 SPAWN = Path(__file__).resolve().parent / "spawn.py"
 
@@ -54,7 +55,7 @@ def run(command: Sequence[str | Path]) -> Run:
             errors="replace",
             check=False,
         )
-        figures = json.loads(taken.read_text()) if taken.exists() else {"status": None}
+        figures: dict[str, Any] = json.loads(taken.read_text()) if taken.exists() else {"status": None}
     if figures["status"] != 0:
         said = "\n".join((done.stderr or done.stdout).splitlines()[-8:])
         raise RunError(f"{' '.join(words)}: status {figures['status']}\n{said}")

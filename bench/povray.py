@@ -195,7 +195,8 @@ def _mesh(ir: SceneIR, row: int) -> Iterator[str]:
 
 
 def _rows(form: str, rows: NDArray[np.float64] | NDArray[np.int32]) -> Iterator[str]:
-    return map(form.__mod__, map(tuple, rows.tolist()))
+    each: list[list[float]] = rows.tolist()
+    return (form % tuple(row) for row in each)
 
 
 def _surface(ir: SceneIR, solid: int, kind: PrimitiveKind, shape: int) -> Iterator[str]:

@@ -66,7 +66,7 @@ def _beside(
 ) -> Result:
     """Our server beside another one, which is left out where it is not installed."""
     assert ours is not None
-    own, other = ours[asked], theirs and theirs[asked]
+    own, other = ours[asked], theirs[asked] if theirs is not None else None
     note = f"of {EDITS} edits, half took no longer; ours {_spread(own)}{f'; theirs {_spread(other)}' if other else ''}"
     name, missing = reference
     return Result(row, work, name, "ms", middle(own), middle(other) if other else None, Aim(1.0), note, missing)
@@ -162,7 +162,7 @@ def _diagnostics(client: Client, uri: str, version: int, pull: bool) -> float:
         return time.perf_counter()
 
     def published(message: dict[str, Any]) -> bool:
-        params = message.get("params") or {}
+        params: dict[str, Any] = message.get("params") or {}
         return message.get("method") == "textDocument/publishDiagnostics" and params.get("version", version) == version
 
     return client.wait(published).at

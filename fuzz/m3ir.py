@@ -18,6 +18,7 @@ from m3dc.ir import m3ir
 from m3dc.ir.soundness import fault
 
 from . import repeating
+from .json_values import is_container, keys
 from .scenes import Scenes
 
 SUFFIX = ".m3ir"
@@ -75,9 +76,9 @@ def _header_changed(data: bytes, chance: random.Random) -> bytes:
             header = json.loads(text)
             place: Any = header
             while True:
-                key = chance.choice(list(place)) if isinstance(place, dict) else chance.randrange(len(place))
+                key = chance.choice(keys(place))
                 inner = place[key]
-                if not isinstance(inner, dict | list) or not inner or chance.random() < 0.2:
+                if not is_container(inner) or not inner or chance.random() < 0.2:
                     break
                 place = inner
             if chance.random() < 0.2:

@@ -23,6 +23,7 @@ from lsprotocol import converters, types
 from m3d_lsp.server import Server, make_server
 
 from . import repeating
+from .json_values import is_container, keys, values
 
 SUFFIX = ".lsp"
 
@@ -131,7 +132,8 @@ def _message(chance: random.Random, number: Iterator[int]) -> bytes:
         damage(message["params"], chance, chance.choice((1, 1, 2, 5)))
     elif chance.random() < 0.1:
         message["params"] = chance.choice(ODD)
-    known = types.METHOD_TO_TYPES.get(method)
+    # The second is the type of the answer, None for a notification.
+    known: tuple[Any, ...] | None = types.METHOD_TO_TYPES.get(method)
     if known is None or known[1] is not None or chance.random() < 0.1:
         message["id"] = next(number) if chance.random() < 0.8 else str(next(number))
     return _framed(chance, message)
@@ -169,12 +171,16 @@ def _with_headers(chance: random.Random, content: bytes) -> bytes:
     return b"\r\n".join([*headers, b"", b""]) + content
 
 
+def _is_enum(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, Enum)
+
+
 def of_type(kind: Any, chance: random.Random, depth: int = 0) -> Any:
     """JSON of one of LSP's types, or of another where that says little."""
     origin, parts = typing.get_origin(kind), typing.get_args(kind)
     if kind is types.Position:
         return {"line": chance.randint(0, 6), "character": chance.randint(0, 50)}
-    if isinstance(kind, type) and issubclass(kind, Enum):
+    if _is_enum(kind):
         return chance.choice([*(member.value for member in kind)]) if chance.random() < 0.9 else chance.choice(ODD)
     if attrs.has(kind):
         likely = 0.8 if depth < 3 else 0.4
@@ -206,7 +212,7 @@ def _in_json(name: str) -> str:
 def damage(value: Any, chance: random.Random, times: int) -> None:
     """Take members away from JSON, or put something else in their place."""
     for _ in range(times):
-        places = [(inner, key) for inner in _containers(value) for key in _keys(inner)]
+        places = [(inner, key) for inner in _containers(value) for key in keys(inner)]
         if not places:
             return
         inner, key = chance.choice(places)
@@ -217,14 +223,10 @@ def damage(value: Any, chance: random.Random, times: int) -> None:
 
 
 def _containers(value: Any) -> Iterator[Any]:
-    if isinstance(value, (dict, list)):
+    if is_container(value):
         yield value
-        for inner in list(value.values() if isinstance(value, dict) else value):
+        for inner in values(value):
             yield from _containers(inner)
-
-
-def _keys(value: Any) -> list[Any]:
-    return list(value) if isinstance(value, dict) else list(range(len(value)))
 
 
 # --- what must hold ---------------------------------------------------------------------------------------------------
@@ -235,10 +237,10 @@ def numbers(data: bytes) -> list[int | str]:
     found: list[int | str] = []
     for content in _contents(data):
         try:
-            message = json.loads(content)
+            message: Any = json.loads(content)
         except (ValueError, RecursionError):
             continue
-        number = message.get("id") if isinstance(message, dict) else None
+        number = typing.cast("dict[str, Any]", message).get("id") if isinstance(message, dict) else None
         if isinstance(number, (int, str)) and "method" in message:
             found.append(number)
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenImageIO
@@ -12,9 +13,26 @@ STEPS = 2
 """How far 8-bit values may be apart: another processor's exp or cos may round another way."""
 
 
+def read_pixels(image: OpenImageIO.ImageBuf, kind: OpenImageIO.BASETYPE) -> NDArray[Any]:
+    """The pixels of a picture as numbers of that kind, (H, W, channels)."""
+    pixels = image.get_pixels(kind)
+    assert pixels is not None, image.geterror()
+    return pixels
+
+
+def channel_names(image: OpenImageIO.ImageBuf) -> list[str]:
+    """The names of a picture's channels, in their order."""
+    return list(map(str, image.spec().channelnames))  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]  its stub says tuple
+
+
+def float_pixels(file: Path | str) -> NDArray[np.float32]:
+    """The pixels of a picture file as floats, (H, W, channels)."""
+    return read_pixels(OpenImageIO.ImageBuf(str(file)), OpenImageIO.FLOAT)
+
+
 def stored(file: Path) -> NDArray[np.int64]:
     """The 8-bit pixels of a picture file, (H, W, channels)."""
-    return OpenImageIO.ImageBuf(str(file)).get_pixels(OpenImageIO.UINT8).astype(int)
+    return read_pixels(OpenImageIO.ImageBuf(str(file)), OpenImageIO.UINT8).astype(int)
 
 
 def in_steps(picture: NDArray[np.floating]) -> NDArray[np.int64]:

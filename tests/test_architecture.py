@@ -91,7 +91,8 @@ def circle(arrows: Mapping[str, set[str]]) -> list[str]:
         done.add(name)
         return []
 
-    return next(filter(None, (follow(name, []) for name in sorted(arrows))), [])
+    none: list[str] = []
+    return next(filter(None, (follow(name, []) for name in sorted(arrows))), none)
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import NamedTuple
+from typing import IO, Any, NamedTuple
 
 import pytest
 
@@ -74,14 +74,22 @@ def words(command: str, arguments: tuple[str, ...] = ()) -> list[str]:
     return [sys.executable, "-c", f"import sys; from {module} import {function}; sys.exit({function}())", *arguments]
 
 
-def run(command: str, *arguments: str, cwd: Path, **how: object) -> subprocess.CompletedProcess[bytes]:
-    options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **how}
-    done = subprocess.run(words(command, arguments), cwd=cwd, timeout=120, check=False, **options)  # type: ignore[call-overload]
+def run(
+    command: str,
+    *arguments: str,
+    cwd: Path,
+    env: dict[str, str] | None = None,
+    stdout: IO[bytes] | int = subprocess.PIPE,
+) -> subprocess.CompletedProcess[bytes]:
+    done = subprocess.run(
+        words(command, arguments), cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
+        timeout=120, check=False,
+    )  # fmt: skip
     assert b"Traceback" not in (done.stderr or b""), done.stderr.decode()
     return done
 
 
-def read(name: str, scene: str, cwd: Path, **how: object) -> subprocess.CompletedProcess[bytes]:
+def read(name: str, scene: str, cwd: Path, **how: Any) -> subprocess.CompletedProcess[bytes]:
     command = name.split(" ")[0]
     return run(command, *(scene if word == "SCENE" else word for word in READINGS[name].arguments), cwd=cwd, **how)
 
@@ -288,7 +296,7 @@ def test_what_is_written_never_replaces_the_scene(name: str, folder: Path) -> No
     ],
 )
 def test_standard_output_is_a_file_too(command: str, arguments: tuple[str, ...], begins: bytes, folder: Path) -> None:
-    outputs = []
+    outputs: list[bytes] = []
     for output in ("-", "/dev/stdout", "/dev/fd/1"):
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "0"}
         done = run(

@@ -5,13 +5,20 @@ from __future__ import annotations
 import json
 import tracemalloc
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import m3dc
 from m3dc.ir import TABLES, SceneIR, m3ir
+
+Arrays: TypeAlias = dict[str, NDArray[Any]]
+Change: TypeAlias = Callable[[Any, Arrays], object]
+"""Damages the header or the arrays of a file."""
 
 
 @pytest.fixture
@@ -73,7 +80,7 @@ def test_a_damaged_file_is_refused(scene: SceneIR, tmp_path: Path) -> None:
     refusal(path)
 
 
-def changed(scene: SceneIR, path: Path, change) -> None:
+def changed(scene: SceneIR, path: Path, change: Change) -> None:
     m3ir.write(scene, path)
     with np.load(path) as archive:
         arrays = dict(archive)
@@ -101,13 +108,24 @@ def test_missing_and_misshapen_columns_are_named(scene: SceneIR, tmp_path: Path)
     assert "columns of spheres differ" in refusal(path)
 
 
-def put(*keys: str, value: object):
+def put(*keys: str, value: object) -> Change:
     """A change of the header: the member that the keys lead to."""
 
-    def change(header, _arrays) -> None:
+    def change(header: Any, _arrays: Arrays) -> None:
         for key in keys[:-1]:
             header = header[key]
         header[keys[-1]] = value
+
+    return change
+
+
+def without(key: str, of: tuple[str, ...] = ()) -> Change:
+    """A change of the header: a member of what the keys `of` lead to is taken out."""
+
+    def change(header: Any, _arrays: Arrays) -> None:
+        for name in of:
+            header = header[name]
+        header.pop(key)
 
     return change
 
@@ -131,11 +149,11 @@ def put(*keys: str, value: object):
         (put("scene", "sky", "sun", value=7), "scene.sky.sun names a row of lights that is not there"),
         (put("scene", "view", "bottom", value=64000), "no pixel between"),
         (put("scene", "sky", "moon", value=1), "there is no scene.sky.moon"),
-        (lambda header, _: header["scene"]["view"].pop("up"), "scene.view.up is missing"),
-        (lambda header, _: header.pop("scene"), "scene is not an object"),
+        (without("up", of=("scene", "view")), "scene.view.up is missing"),
+        (without("scene"), "scene is not an object"),
     ],
 )
-def test_a_header_is_looked_at(scene: SceneIR, tmp_path: Path, change, says: str) -> None:
+def test_a_header_is_looked_at(scene: SceneIR, tmp_path: Path, change: Change, says: str) -> None:
     path = tmp_path / "a.m3ir"
     changed(scene, path, change)
     assert says in refusal(path)
@@ -158,7 +176,7 @@ def test_a_header_is_looked_at(scene: SceneIR, tmp_path: Path, change, says: str
     ],
 )
 def test_columns_are_looked_at(scene: SceneIR, tmp_path: Path, column: str, value: float, says: str) -> None:
-    def change(_header, arrays) -> None:
+    def change(_header: Any, arrays: Arrays) -> None:
         values = arrays[column].copy()
         values[:2] = value
         arrays[column] = values

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 import pytest
@@ -122,6 +123,7 @@ def test_a_light_keeps_its_place_among_the_lights() -> None:
 
 # --- transformations ----------------------------------------------------------------------------------------------
 
+Steps: TypeAlias = list[tuple[str, float]]
 STEPS = st.lists(
     st.one_of(
         st.tuples(st.sampled_from(["TRANSX", "TRANSY", "TRANSZ"]), st.floats(-10, 10)),
@@ -132,7 +134,7 @@ STEPS = st.lists(
 )
 
 
-def by_scipy(steps: list[tuple[str, float]], points: np.ndarray) -> np.ndarray:
+def by_scipy(steps: Steps, points: np.ndarray) -> np.ndarray:
     """Each step done to the points in turn."""
     for keyword, amount in steps:
         axis = "XYZ".index(keyword[-1])
@@ -145,12 +147,12 @@ def by_scipy(steps: list[tuple[str, float]], points: np.ndarray) -> np.ndarray:
     return points
 
 
-def written(steps: list[tuple[str, float]]) -> str:
+def written(steps: Steps) -> str:
     return "TRANSFORM { " + " ".join(f"{keyword} {amount:.17f}" for keyword, amount in steps) + " }"
 
 
 @given(STEPS, STEPS)
-def test_points_go_through_the_primitives_and_then_the_objects_steps(primitive, obj) -> None:
+def test_points_go_through_the_primitives_and_then_the_objects_steps(primitive: Steps, obj: Steps) -> None:
     text = f"SOLID {{ TRIANGLE {{ VERTEX1 <1,2,3> {written(primitive)} }} {written(obj)} }}"
     triangles = compiled(text)["triangles"]
     corners = np.array([[1, 2, 3], [0, 0, 0], [1, 0, 0]], float)
@@ -161,14 +163,14 @@ def test_points_go_through_the_primitives_and_then_the_objects_steps(primitive, 
 
 
 @given(STEPS)
-def test_the_inverse_undoes_the_matrix(steps) -> None:
+def test_the_inverse_undoes_the_matrix(steps: Steps) -> None:
     ir = compiled(f"SOLID {{ SPHERE {{ {written(steps)} }} }}")
     product = ir["primitives"]["transform"][0] @ ir["primitives"]["inverse"][0]
     np.testing.assert_allclose(product, np.eye(4), atol=1e-7)
 
 
 @given(STEPS)
-def test_two_blocks_are_as_good_as_one(steps) -> None:
+def test_two_blocks_are_as_good_as_one(steps: Steps) -> None:
     whole = compiled(f"SOLID {{ SPHERE {{ {written(steps)} }} }}")
     half = len(steps) // 2
     parts = compiled(f"SOLID {{ SPHERE {{ {written(steps[:half])} {written(steps[half:])} }} }}")
@@ -268,7 +270,10 @@ def test_beckmann_maximum_is_the_maximum(rough: float) -> None:
     def term(beta: float) -> float:
         return math.exp(-((math.tan(beta) / rough) ** 2)) / (rough**2 * math.cos(beta) ** 4)
 
-    found = minimize_scalar(lambda beta: -term(beta), bounds=(0, 1.5), method="bounded", options={"xatol": 1e-12})
+    def negative(beta: float) -> float:
+        return -term(beta)
+
+    found = minimize_scalar(negative, bounds=(0, 1.5), method="bounded", options={"xatol": 1e-12})
     assert beckmann_maximum(rough) == pytest.approx(max(-found.fun, term(0)), rel=1e-9)
 
 

@@ -62,7 +62,7 @@ def is_sentence(text: str) -> bool:
     from lark.exceptions import UnexpectedInput
 
     try:
-        parser().parse(blank_comments(text))
+        parser().parse(blank_comments(text))  # pyright: ignore[reportUnknownMemberType]  Lark says too little
     except UnexpectedInput:
         return False
     return True

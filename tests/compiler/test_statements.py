@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
 import numpy as np
 import pytest
 
 import m3dc
 from m3dc.ir import LightKind, SceneIR, TextureKind
-from tree_sitter_m3d.table import LANGUAGE
+from tree_sitter_m3d.table import LANGUAGE, Block
 
 SPHERE = "SPHERE { }"
 PROFILE = "PROFILE { 0 1 10 2 20 4 }"
@@ -38,13 +41,16 @@ def sphere_matrix(body: str) -> str:
     return solid(f"SPHERE {{ TRANSFORM {{ {body} }} }}")
 
 
-def column(table: str, name: str, row: int = 0):
+Get: TypeAlias = Callable[[SceneIR], Any]
+
+
+def column(table: str, name: str, row: int = 0) -> Get:
     return lambda ir: ir[table][name][row]
 
 
-def scene_value(path: str):
-    def get(ir: SceneIR):
-        value = ir.scene
+def scene_value(path: str) -> Get:
+    def get(ir: SceneIR) -> Any:
+        value: Any = ir.scene
         for name in path.split("."):
             value = getattr(value, name)
         return value
@@ -69,7 +75,7 @@ S45 = 0.5**0.5
 
 # (block, keyword): a scene that uses it, where it shows in the IR, and what must be there. All values differ from the
 # defaults.
-CASES = {
+CASES: dict[tuple[str, str], tuple[str, Get, Any]] = {
     ("SCENE", "SHADOWS"): (scene("SHADOWS"), scene_value("shadows"), True),
     ("SCENE", "LOGSCALE"): (scene("LOGSCALE 15"), scene_value("log_scale"), 15.0),
     ("SCENE", "DEPTH"): (scene("DEPTH 5"), scene_value("depth"), 5),
@@ -265,7 +271,7 @@ def test_textures_reach_the_ir(keyword: str) -> None:
 
 
 @pytest.mark.parametrize("block", LANGUAGE.blocks.values(), ids=lambda block: block.keyword)
-def test_the_tables_examples_compile(block) -> None:
+def test_the_tables_examples_compile(block: Block) -> None:
     """Each block's example stands alone in the blocks that hold it."""
     text = block.example
     keyword = block.keyword

@@ -9,7 +9,7 @@ from lark.exceptions import UnexpectedInput
 
 from tree_sitter_m3d import blank_comments
 from tree_sitter_m3d.formal import END, first_error, parser
-from tree_sitter_m3d.table import LANGUAGE
+from tree_sitter_m3d.table import LANGUAGE, Block
 
 SENTENCES = [
     "",
@@ -28,9 +28,9 @@ def test_sentences(text: str) -> None:
 
 
 @pytest.mark.parametrize("block", LANGUAGE.blocks.values(), ids=lambda block: block.keyword)
-def test_the_example_of_every_block_is_one(block: object) -> None:
-    example = block.example  # type: ignore[attr-defined]
-    keyword = block.keyword  # type: ignore[attr-defined]
+def test_the_example_of_every_block_is_one(block: Block) -> None:
+    example = block.example
+    keyword = block.keyword
     while keyword not in LANGUAGE.top:
         keyword = LANGUAGE.parents[keyword][0]
         example = f"{keyword} {{ {example} }}"
@@ -102,7 +102,7 @@ def test_offsets_count_blanked_comments() -> None:
 
 def lark_accepts(text: str) -> bool:
     try:
-        parser().parse(text)
+        parser().parse(text)  # pyright: ignore[reportUnknownMemberType]  Lark says too little
     except UnexpectedInput:
         return False
     return True

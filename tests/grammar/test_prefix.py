@@ -15,39 +15,39 @@ TOP = {"SCENE", "SOLID", "LIGHT", "VARIABLES", "IDENTIFIER", END}
 MEMBERS_OF_SOLID = {*LANGUAGE.blocks["SOLID"].members(), "RBRACE"}
 
 
-# The text before the cursor; what could stand there; the open braces; and what was begun.
-@pytest.mark.parametrize(
-    ("text", "expected", "opened", "member"),
-    [
-        ("", TOP, [], ""),
-        ("SOLID { SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
-        ("SOLID { SPHERE { RADIUS ", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "SPHERE"], "RADIUS"),
-        ("SOLID { SPHERE { RADIUS r ", SPHERE, ["SOLID", "SPHERE"], "RADIUS r"),
-        ("SOLID { SPHERE { CENTER < 1, ", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "SPHERE"], "CENTER < 1 ,"),
-        ("SOLID { SPHERE ball", {"LBRACE", *MEMBERS_OF_SOLID}, ["SOLID"], "SPHERE ball"),
-        ("SCENE { VIEW { REGION 0, 1", {"COMMA"}, ["SCENE", "VIEW"], "REGION 0 , 1"),
-        ("SOLID { POLYGONS { FACETS { 1 0 1", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "POLYGONS", "FACETS"], "1 0 1"),
-        ("VARIABLES { NUMBER a; VECTOR v, ", {"IDENTIFIER"}, ["VARIABLES"], "VECTOR v ,"),
-        ("a = ", {"NUMERAL", "IDENTIFIER", "LANGLE", "LBRACE"}, [], "a ="),
-        ("a = < b, c, ", {"NUMERAL", "IDENTIFIER"}, [], "a = < b , c ,"),
-        ("a = 1 b", {"EQUAL"}, [], "b"),
-        ("SOLID wheel a", {"EQUAL"}, [], "a"),
-        ("ball = other { RADIUS", {"NUMERAL", "IDENTIFIER"}, ["=ball"], "RADIUS"),
-        # half-typed
-        ("SOLID { SPHERE { RADIUS CENTER ", {"LANGLE", "IDENTIFIER"}, ["SOLID", "SPHERE"], "CENTER"),
-        ("SOLID { SPHERE { RADIUS } ", MEMBERS_OF_SOLID, ["SOLID"], ""),
-        ("SOLID { SPHERE { RADI 5 CENTER < 1, 2 } SURFACE ", {"IDENTIFIER", "LBRACE"}, ["SOLID"], "SURFACE"),
-        ("SOLID { SPHERE { LIGHT { ", {*LANGUAGE.blocks["LIGHT"].members(), "RBRACE"}, ["LIGHT"], ""),
-        ("SOLID { SPHER { RADIUS ", set(), ["SOLID", "?"], ""),
-        ("SOLID { SPHER { RADIUS { } } SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
-        ("} } SOLID ", {"IDENTIFIER", "LBRACE"}, [], "SOLID"),
-        ("VARIABLES { SOLID a, ; LIGHT ", {"IDENTIFIER"}, ["VARIABLES"], "LIGHT"),
-        ("VARIABLES { NUMBER SCENE { SHADOWS VIEW ", {"LBRACE"}, ["SCENE"], "VIEW"),
-        # comments
-        ("SOLID { /* SPHERE { */ ", MEMBERS_OF_SOLID, ["SOLID"], ""),
-        ("SOLID { /* SPHERE { ", set(), [], ""),
-    ],
-)  # fmt: skip
+CASES: list[tuple[str, set[str], list[str], str]] = [
+    ("", TOP, [], ""),
+    ("SOLID { SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
+    ("SOLID { SPHERE { RADIUS ", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "SPHERE"], "RADIUS"),
+    ("SOLID { SPHERE { RADIUS r ", SPHERE, ["SOLID", "SPHERE"], "RADIUS r"),
+    ("SOLID { SPHERE { CENTER < 1, ", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "SPHERE"], "CENTER < 1 ,"),
+    ("SOLID { SPHERE ball", {"LBRACE", *MEMBERS_OF_SOLID}, ["SOLID"], "SPHERE ball"),
+    ("SCENE { VIEW { REGION 0, 1", {"COMMA"}, ["SCENE", "VIEW"], "REGION 0 , 1"),
+    ("SOLID { POLYGONS { FACETS { 1 0 1", {"NUMERAL", "IDENTIFIER"}, ["SOLID", "POLYGONS", "FACETS"], "1 0 1"),
+    ("VARIABLES { NUMBER a; VECTOR v, ", {"IDENTIFIER"}, ["VARIABLES"], "VECTOR v ,"),
+    ("a = ", {"NUMERAL", "IDENTIFIER", "LANGLE", "LBRACE"}, [], "a ="),
+    ("a = < b, c, ", {"NUMERAL", "IDENTIFIER"}, [], "a = < b , c ,"),
+    ("a = 1 b", {"EQUAL"}, [], "b"),
+    ("SOLID wheel a", {"EQUAL"}, [], "a"),
+    ("ball = other { RADIUS", {"NUMERAL", "IDENTIFIER"}, ["=ball"], "RADIUS"),
+    # half-typed
+    ("SOLID { SPHERE { RADIUS CENTER ", {"LANGLE", "IDENTIFIER"}, ["SOLID", "SPHERE"], "CENTER"),
+    ("SOLID { SPHERE { RADIUS } ", MEMBERS_OF_SOLID, ["SOLID"], ""),
+    ("SOLID { SPHERE { RADI 5 CENTER < 1, 2 } SURFACE ", {"IDENTIFIER", "LBRACE"}, ["SOLID"], "SURFACE"),
+    ("SOLID { SPHERE { LIGHT { ", {*LANGUAGE.blocks["LIGHT"].members(), "RBRACE"}, ["LIGHT"], ""),
+    ("SOLID { SPHER { RADIUS ", set(), ["SOLID", "?"], ""),
+    ("SOLID { SPHER { RADIUS { } } SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
+    ("} } SOLID ", {"IDENTIFIER", "LBRACE"}, [], "SOLID"),
+    ("VARIABLES { SOLID a, ; LIGHT ", {"IDENTIFIER"}, ["VARIABLES"], "LIGHT"),
+    ("VARIABLES { NUMBER SCENE { SHADOWS VIEW ", {"LBRACE"}, ["SCENE"], "VIEW"),
+    # comments
+    ("SOLID { /* SPHERE { */ ", MEMBERS_OF_SOLID, ["SOLID"], ""),
+    ("SOLID { /* SPHERE { ", set(), [], ""),
+]  # fmt: skip
+"""The text before the cursor; what could stand there; the open braces; and what was begun."""
+
+
+@pytest.mark.parametrize(("text", "expected", "opened", "member"), CASES)
 def test_what_is_known_at_the_end(text: str, expected: set[str], opened: list[str], member: str) -> None:
     prefix = read_prefix(text)
     assert prefix.expected == expected

@@ -49,11 +49,16 @@ def slow_read(text: str, head: str, row: str) -> tuple[list[float], list[float],
     offsets: list[int] = []
     at = 0
 
+    def after_blank(at: int) -> int:
+        found = blank.match(text, at)
+        assert found is not None
+        return found.end()
+
     def read_layout(layout: str) -> tuple[list[float], bool]:
         nonlocal at
         values: list[float] = []
         for token in tokens(layout):
-            at = blank.match(text, at).end()
+            at = after_blank(at)
             match = numeral.match(text, at) if token == "n" else re.compile(re.escape(token)).match(text, at)
             if not match:
                 return values, False
@@ -64,7 +69,7 @@ def slow_read(text: str, head: str, row: str) -> tuple[list[float], list[float],
 
     heads, whole = read_layout(head)
     while whole:
-        start = at = blank.match(text, at).end()
+        start = at = after_blank(at)
         if at == len(text):
             return heads, rows, offsets, None
         values, whole = read_layout(row)

@@ -14,7 +14,7 @@ from pytest_lsp import ClientServerConfig
 COMMAND = [sys.executable, "-m", "m3d_lsp"]
 
 
-@pytest_lsp.fixture(
+@pytest_lsp.fixture(  # pyright: ignore[reportUnknownMemberType]  of no type in pytest-lsp
     scope="session",
     loop_scope="session",
     config=ClientServerConfig(server_command=COMMAND, client_factory=SceneClient),
@@ -22,6 +22,7 @@ COMMAND = [sys.executable, "-m", "m3d_lsp"]
 async def client(lsp_client: SceneClient):
     """A client that can do what VS Code can. Positions count UTF-32, as Python does."""
     capabilities = pytest_lsp.client_capabilities("visual_studio_code")
+    assert capabilities.general is not None
     capabilities.general.position_encodings = [types.PositionEncodingKind.Utf32]
     capabilities.experimental = OURS
     await lsp_client.initialize_session(types.InitializeParams(capabilities=capabilities, root_uri="file:///scenes"))

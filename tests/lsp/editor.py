@@ -12,7 +12,7 @@ import itertools
 import re
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypedDict, TypeVar, cast
 
 from cattrs import Converter
 from lsprotocol import types
@@ -66,6 +66,13 @@ def apply(text: str, edits: Sequence[types.TextEdit]) -> str:
     return "".join([*parts, text[done:]])
 
 
+class At(TypedDict):
+    """The parameters of a request about a place."""
+
+    text_document: types.TextDocumentIdentifier
+    position: types.Position
+
+
 class Scene(NamedTuple):
     """An open document."""
 
@@ -85,7 +92,7 @@ class Scene(NamedTuple):
     def range(self) -> types.Range:
         return types.Range(self.places["["], self.places["]"])
 
-    def at(self, mark: str = "0") -> dict[str, object]:
+    def at(self, mark: str = "0") -> At:
         """The parameters of a request about a place."""
         return {"text_document": self.identifier, "position": self.places[mark]}
 
@@ -104,8 +111,8 @@ OWN_NOTIFICATIONS = ("m3d/analysed", "m3d/preview/tile")
 def simple(value: Any) -> Any:
     """JSON with attributes for keys. pygls makes a class for every object in it, which takes long for large answers."""
     if isinstance(value, dict):
-        return SimpleNamespace(**{key: simple(each) for key, each in value.items()})
-    return [simple(each) for each in value] if isinstance(value, list) else value
+        return SimpleNamespace(**{key: simple(each) for key, each in cast(dict[str, Any], value).items()})
+    return [simple(each) for each in cast(list[Any], value)] if isinstance(value, list) else value
 
 
 def converter() -> Converter:
@@ -121,17 +128,18 @@ class SceneClient(LanguageClient):
     of our own, by method."""
 
     def __init__(self) -> None:
-        super().__init__(converter_factory=converter)
+        super().__init__(converter_factory=converter)  # pyright: ignore[reportUnknownMemberType]  of no type in pygls
         self.published: dict[str, types.PublishDiagnosticsParams] = {}
         self.notified: dict[str, list[Any]] = {}
         self._news = asyncio.Event()
         register_lsp_features(self)
+        features = cast(dict[str, Any], self.protocol.fm.features)  # pyright: ignore[reportUnknownMemberType]
         # In place of what pytest_lsp has for it, which forgets versions.
-        self.protocol.fm.features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._publish
+        features[types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS] = self._publish
         for method in OWN_NOTIFICATIONS:
             self.feature(method)(functools.partial(self._notify, method))
         for kind in ("diagnostic", "inlayHint", "codeLens"):
-            self.protocol.fm.features[f"workspace/{kind}/refresh"] = _nothing
+            features[f"workspace/{kind}/refresh"] = _nothing
 
     def _publish(self, params: types.PublishDiagnosticsParams) -> None:
         self.published[params.uri] = params

@@ -34,7 +34,7 @@ async def start_server(
 ) -> tuple[SceneClient, types.ServerCapabilities]:
     """A server of its own, whose client can do what an editor can (a name of pytest-lsp's); and what it can do."""
     client = SceneClient()
-    await client.start_io(*COMMAND, *options)
+    await client.start_io(*COMMAND, *options)  # pyright: ignore[reportUnknownMemberType]  of no type in pygls
     capabilities = pytest_lsp.client_capabilities(like)
     if capabilities.general is None:
         capabilities.general = types.GeneralClientCapabilities()
@@ -48,5 +48,6 @@ async def start_server(
 
 def process_of(client: SceneClient) -> asyncio.subprocess.Process:
     """The server that a client has started."""
-    assert client._server is not None
-    return client._server
+    server = client._server  # pyright: ignore[reportPrivateUsage]  pygls has no other name for it
+    assert server is not None
+    return server

@@ -18,6 +18,7 @@ SERVER = [sys.executable, "-m", "m3d_lsp"]
 PATIENCE_S = 30
 URI = session.URI
 
+NO_DIAGNOSTICS: dict[str, list[Any]] = {"diagnostics": []}
 PARSE, REQUEST, METHOD, PARAMS = -32700, -32600, -32601, -32602
 NOT_INITIALIZED, CONTENT_MODIFIED, FAILED = -32002, -32801, -32803
 
@@ -115,7 +116,7 @@ class Talk:
     def text(self) -> Any:
         """What the server takes the document's text for, by its syntax tree; or the code of the error."""
         answer = self.ask("text", request("text", "m3d/syntaxTree", {"textDocument": {"uri": URI}}))
-        return " ".join(node["description"] for node in answer["nodes"]) if isinstance(answer, dict) else answer
+        return answer if isinstance(answer, int) else " ".join(node["description"] for node in answer["nodes"])
 
     def _find(self, wanted: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
         found = next(filter(wanted, self.said), None)
@@ -183,7 +184,7 @@ def test_what_a_client_can_not_show_is_not_sent() -> None:
         found = talk.ask(2, request(2, "workspace/symbol", {"query": ""}))
         assert {each["kind"] for each in found} <= set(range(1, 19))
         range_ = {"start": {"line": 0, "character": 0}, "end": {"line": 9, "character": 0}}
-        actions = {**document, "range": range_, "context": {"diagnostics": []}}
+        actions = {**document, "range": range_, "context": NO_DIAGNOSTICS}
         assert talk.ask(3, request(3, "textDocument/codeAction", actions)) == []
         assert talk.ask(4, request(4, "textDocument/codeLens", document)) == []
         hover = talk.ask(5, request(5, "textDocument/hover", place))
@@ -204,7 +205,7 @@ def test_commands_in_place_of_actions() -> None:
     with Talk(initialize({"workspace": {"applyEdit": True}})) as talk:
         talk.send(opened("SOLID { SPHERE { RADIUS size } }\n"))
         range_ = {"start": {"line": 0, "character": 26}, "end": {"line": 0, "character": 26}}
-        actions = {"textDocument": {"uri": URI}, "range": range_, "context": {"diagnostics": []}}
+        actions = {"textDocument": {"uri": URI}, "range": range_, "context": NO_DIAGNOSTICS}
         found = talk.ask(1, request(1, "textDocument/codeAction", actions))
         command = next(each for each in found if "eclare" in each["title"])
         assert command["command"] == "m3d.applyEdit"

@@ -52,6 +52,7 @@ async def test_an_editor_is_served(like: str) -> None:
     try:
         editor = Editor(client)
         scene = editor.open(SCENE)
+        assert client.capabilities is not None
         document = client.capabilities.text_document
         pulls = document is not None and document.diagnostic is not None
         shown = await diagnostics(client, editor, scene.uri, pulls)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import pytest
 from editor import Editor, Scene
 from lsprotocol import types
@@ -21,7 +24,9 @@ SOLID
 
 
 async def lenses(editor: Editor, scene: Scene) -> list[types.CodeLens]:
-    return list(await editor.client.text_document_code_lens_async(types.CodeLensParams(scene.identifier)))
+    found = await editor.client.text_document_code_lens_async(types.CodeLensParams(scene.identifier))
+    assert found is not None
+    return list(found)
 
 
 async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
@@ -36,7 +41,9 @@ async def test_what_can_be_done_and_what_is_used(editor: Editor) -> None:
         (4, "Dump", "m3d.dump"),
     ]
     assert found[0].command is not None
-    uri, position, locations = found[0].command.arguments or ()
+    given: Sequence[Any] | None = found[0].command.arguments
+    assert given is not None
+    uri, position, locations = given
     assert uri == scene.uri
     assert (position["line"], position["character"]) == (0, 19)
     assert [place["range"]["start"]["line"] for place in locations] == [1, 1, 3]

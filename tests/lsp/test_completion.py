@@ -276,6 +276,7 @@ async def test_a_proposal_says_what_it_is(editor: Editor) -> None:
         item.label: item for item in await complete(editor, editor.open(HEAD + "SOLID { SPHERE { $0 RADIUS sand } }"))
     }
     assert items["RADIUS"].detail == "RADIUS radius"
+    assert isinstance(items["RADIUS"].documentation, types.MarkupContent)
     assert "Under a scaling transform" in items["RADIUS"].documentation.value
     items = {item.label: item for item in await complete(editor, editor.open(HEAD + "sand = < little, $0"))}
     assert items["little"].detail == "NUMBER = 0.5"

@@ -41,11 +41,12 @@ async def test_it_goes_when_it_is_mended(editor: Editor) -> None:
 async def test_what_nothing_uses_is_faded_and_related_places_are_named(editor: Editor) -> None:
     scene = editor.open("VARIABLES { NUMBER $[spare$], same, same; }\nSOLID { SPHERE { RADIUS same } }\n" + LIGHT)
     shown = {diagnostic.code: diagnostic for diagnostic in await editor.diagnostics(scene)}
+    assert shown["M3D0201"].related_information is not None
     assert shown["M3D0201"].related_information[0].message == "first declared here"
     scene = editor.replace(scene, "VARIABLES { NUMBER $[spare$]; }\nSOLID { SPHERE { } }\n" + LIGHT)
     (unused,) = await editor.diagnostics(scene)
     assert unused.range == scene.range
-    assert list(unused.tags) == [types.DiagnosticTag.Unnecessary]
+    assert list(unused.tags or ()) == [types.DiagnosticTag.Unnecessary]
 
 
 async def test_a_closed_document_has_no_diagnostics(editor: Editor) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from editor import Editor
 from lsprotocol import types
@@ -11,7 +13,7 @@ pytestmark = pytest.mark.asyncio(loop_scope="session")
 
 BEFORE = "/* 𝔐 ∂ é 🏝 */ SOLID { SPHERE { /* 🐚 */ RADIUS "
 SCENE = f"/* 🌅 */\n{BEFORE}-5 /* 🐟 */ }} }}\nLIGHT {{ SOURCE {{ FROM < 0, 0, 9 > }} }}\n"
-COUNTED = {
+COUNTED: dict[str, Callable[[str], int]] = {
     "utf-8": lambda text: len(text.encode()),
     "utf-16": lambda text: len(text.encode("utf-16-le")) // 2,
     "utf-32": len,

@@ -27,7 +27,7 @@ async def calls(editor: Editor, scene: Scene) -> tuple[list[str], list[str]]:
     prepared = await editor.client.text_document_prepare_call_hierarchy_async(
         types.CallHierarchyPrepareParams(**scene.at())
     )
-    (item,) = prepared or ()
+    (item,) = prepared or []
     incoming = await editor.client.call_hierarchy_incoming_calls_async(types.CallHierarchyIncomingCallsParams(item))
     outgoing = await editor.client.call_hierarchy_outgoing_calls_async(types.CallHierarchyOutgoingCallsParams(item))
     used = {scene.part(range_) for call in incoming or () for range_ in call.from_ranges}
@@ -42,7 +42,7 @@ async def copies(editor: Editor, scene: Scene) -> tuple[list[str], list[str]]:
     prepared = await editor.client.text_document_prepare_type_hierarchy_async(
         types.TypeHierarchyPrepareParams(**scene.at())
     )
-    (item,) = prepared or ()
+    (item,) = prepared or []
     above = await editor.client.type_hierarchy_supertypes_async(types.TypeHierarchySupertypesParams(item))
     below = await editor.client.type_hierarchy_subtypes_async(types.TypeHierarchySubtypesParams(item))
     return [item.name for item in above or ()], [item.name for item in below or ()]
@@ -86,7 +86,7 @@ SOLID { SPHERE ball { CENTER < 2, 0, 0 > } }
     prepared = await editor.client.text_document_prepare_type_hierarchy_async(
         types.TypeHierarchyPrepareParams(**scene.at())
     )
-    (item,) = prepared or ()
+    (item,) = prepared or []
     below = await editor.client.type_hierarchy_subtypes_async(types.TypeHierarchySubtypesParams(item))
     assert [f"{each.name}: {each.detail}" for each in below or ()] == [
         "SPHERE ball: in pair",

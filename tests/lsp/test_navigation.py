@@ -144,7 +144,8 @@ SOLID { POLYGONS house { NOPHONG SFACETS { 1
 async def test_from_a_corner_to_its_vertex(editor: Editor, place: str, expected: list[str]) -> None:
     scene = editor.open(MESH.replace(place.replace("$0", ""), place))
     found = await editor.client.text_document_definition_async(types.DefinitionParams(**scene.at()))
-    assert [scene.part(each.range) for each in found or () if isinstance(each, types.Location)] == expected
+    places = [found] if isinstance(found, types.Location) else found or ()
+    assert [scene.part(each.range) for each in places if isinstance(each, types.Location)] == expected
 
 
 @pytest.mark.parametrize("place", ["< 1, $00, 0 >  /*", "0 $01 2   /*", "/* 1 */ 1$0 2"])

@@ -207,7 +207,7 @@ async def test_which_statement_made_a_pixel(editor: Editor) -> None:
     assert await view.ask("pick", x=0, y=0) is None  # nothing is drawn
     await view.ask("render")
     whole = m3d_render.prepare(m3dc.compile(scene.text).ir).render(aov=["solid", "depth", "position", "path"])
-    found = {}
+    found: dict[int, Any] = {}
     for y, x in np.argwhere(whole.layers["solid"] >= 0)[::50].tolist():
         picked = await view.ask("pick", x=x, y=y)
         assert picked.solid == whole.layers["solid"][y, x]
@@ -351,7 +351,7 @@ async def test_the_ray_through_a_pixel(editor: Editor, examples: Path) -> None:
     for view in (bent, straight):
         await view.ask("render", maxWidth=160)
     whole = m3d_render.prepare(ir).render(width=160, height=100, aov=["position", "primitive", "path"])
-    seen = set()
+    seen: set[str] = set()
     for x, y in ((80, 20), (80, 45), (80, 55), (80, 90)):
         ray = await bent.ask("ray", x=x, y=y)
         seen.add(ray.end)
@@ -390,17 +390,18 @@ async def test_saving_tells_how_far_it_is(editor: Editor, tmp_path: Path) -> Non
     answer = await View(editor, scene, "unused").ask("save", path=str(tmp_path / "saved.png"))
     assert answer.status == "done"
     (token,) = set(reports) - before
-    percentages = [report.percentage for report in reports[token][:-1]]
+    said: list[Any] = reports[token]
+    percentages = [report.percentage for report in said[:-1]]
     assert percentages[0] == 0
     assert percentages == sorted(percentages)
-    assert [report.kind for report in (reports[token][0], reports[token][-1])] == ["begin", "end"]
+    assert [report.kind for report in (said[0], said[-1])] == ["begin", "end"]
 
 
 @pytest.mark.filterwarnings("ignore:Unknown progress token")  # pytest-lsp knows of none that the client gave
 async def test_saving_can_be_cancelled(editor: Editor, tmp_path: Path) -> None:
     path = tmp_path / "saved.png"
     path.write_text("old")
-    params = {"path": str(path), "samples": ENDLESS, "workDoneToken": "slow"}
+    params: dict[str, Any] = {"path": str(path), "samples": ENDLESS, "workDoneToken": "slow"}
     answer = View(editor, editor.open(BALLS), "unused").start("save", **params)
     await until(lambda: "slow" in editor.client.progress_reports)
     editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams("slow"))
@@ -480,6 +481,7 @@ async def test_no_process_is_left_behind(how: str) -> None:
     if how == "the client says so":
         await client.shutdown_session()
     elif how == "the client is gone":
+        assert server.stdin is not None
         server.stdin.close()
         await until(lambda: not alive(server.pid))
     else:

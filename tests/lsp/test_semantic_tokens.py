@@ -34,12 +34,13 @@ def shown(text: str, data: Sequence[int]) -> Iterator[str]:
     """Each token as its text, kind and modifiers."""
     lines = text.split("\n")
     line = character = 0
-    for down, right, length, kind, modifiers in zip(*(data[column::5] for column in range(5)), strict=True):
+    for first in range(0, len(data), 5):
+        down, right, length, kind, modifiers = data[first : first + 5]
         line, character = line + down, right + (character if down == 0 else 0)
         word = lines[line][character : character + length]
         assert len(word) == length > 0
         marks = [name for bit, name in enumerate(LEGEND.token_modifiers) if modifiers >> bit & 1]
-        yield " ".join([word, LEGEND.token_types[kind], *marks])
+        yield " ".join([word, str(LEGEND.token_types[kind]), *marks])
 
 
 async def test_every_word_has_its_kind(editor: Editor) -> None:

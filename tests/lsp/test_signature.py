@@ -21,7 +21,11 @@ async def check(editor: Editor, marked: str, label: str) -> None:
     found = await ask(editor, marked)
     assert found is not None
     (signature,) = found.signatures
-    start, end = signature.parameters[found.active_parameter].label
+    assert signature.parameters is not None
+    assert found.active_parameter is not None
+    label_range = signature.parameters[found.active_parameter].label
+    assert not isinstance(label_range, str)
+    start, end = label_range
     text = signature.label
     assert f"{text[:start]}[{text[start:end]}]{text[end:]}" == label
 

@@ -19,17 +19,13 @@ def framed(message: dict[str, Any]) -> bytes:
     return b"Content-Length: %d\r\n\r\n%b" % (len(body), body)
 
 
-SESSION = b"".join(
-    map(
-        framed,
-        [
-            {"id": 1, "method": "initialize", "params": {"processId": None, "rootUri": None, "capabilities": {}}},
-            {"method": "initialized", "params": {}},
-            {"id": 2, "method": "shutdown", "params": None},
-            {"method": "exit", "params": None},
-        ],
-    )
-)
+MESSAGES: list[dict[str, Any]] = [
+    {"id": 1, "method": "initialize", "params": {"processId": None, "rootUri": None, "capabilities": {}}},
+    {"method": "initialized", "params": {}},
+    {"id": 2, "method": "shutdown", "params": None},
+    {"method": "exit", "params": None},
+]
+SESSION = b"".join(map(framed, MESSAGES))
 
 
 def answered(output: bytes) -> list[int]:
@@ -60,7 +56,10 @@ def test_a_file(tmp_path: Path) -> None:
 
 def test_one_socket_for_both_ways() -> None:
     ours, theirs = socket.socketpair()
-    with ours, subprocess.Popen(SERVER, stdin=theirs, stdout=theirs, stderr=subprocess.PIPE) as server:
+    with (
+        ours,
+        subprocess.Popen(SERVER, stdin=theirs.fileno(), stdout=theirs.fileno(), stderr=subprocess.PIPE) as server,
+    ):
         theirs.close()
         ours.settimeout(PATIENCE_S)
         ours.sendall(SESSION)

@@ -67,7 +67,7 @@ async def grown(editor: Editor, marked: str) -> list[str]:
     """What is selected step by step."""
     scene = editor.open(marked)
     params = types.SelectionRangeParams(scene.identifier, [scene.cursor])
-    (found,) = await editor.client.text_document_selection_range_async(params) or ()
+    (found,) = await editor.client.text_document_selection_range_async(params) or []
     steps: list[str] = []
     step: types.SelectionRange | None = found
     while step is not None:

@@ -62,7 +62,8 @@ INDENTED = "normal! gg=G\nwrite! $RESULT\nqall!\n"
 
 @pytest.fixture(params=["vim", "nvim"])
 def editor(request: pytest.FixtureRequest) -> str:
-    if shutil.which(request.param) is None:
+    program: str = request.param
+    if shutil.which(program) is None:
         if os.environ.get("CI"):
             pytest.fail(f"{request.param} is not installed: apt-get install vim neovim")
         pytest.skip(f"{request.param} is not installed")

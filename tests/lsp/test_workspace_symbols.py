@@ -53,7 +53,7 @@ async def test_files_of_all_folders(editor: Editor, folders: list[Path]) -> None
     assert await find(editor, "Near") == ["first.m3d: near_by"]
     assert await find(editor, "nb") == ["first.m3d: near_by"]
     found = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams("distant_sand"))
-    (symbol,) = found or ()
+    (symbol,) = found or []
     assert isinstance(symbol.location, types.Location)
     assert symbol.location.range.start == position(FAR, FAR.index("distant_sand"))
     assert symbol.kind == types.SymbolKind.Variable

@@ -8,8 +8,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any, Self, TypeAlias
 
 import numpy as np
+from array_types import Floats
+from numpy.typing import ArrayLike
 
 from m3dc.ir import (
     TABLES,
@@ -22,9 +26,17 @@ from m3dc.ir import (
     SceneIR,
     Sky,
     TextureKind,
+    Triple,
     View,
     empty_tables,
 )
+
+Profile: TypeAlias = Sequence[tuple[float, float]]
+"""Pairs of elevation and temperature."""
+Owner: TypeAlias = tuple[str, int]
+"""What a primitive belongs to: "solid" or "light", and its row."""
+Corners: TypeAlias = Sequence[ArrayLike] | Floats
+Rows: TypeAlias = Sequence[Sequence[float]] | Sequence[Floats] | Floats
 
 IDENTITY = np.eye(4)
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
@@ -38,18 +50,20 @@ MERMAN_PROFILE = [
 ]  # fmt: skip
 
 
-def unit(vector):
-    vector = np.asarray(vector, float)
-    return vector / np.linalg.norm(vector)
+def unit(vector: ArrayLike) -> Floats:
+    given = np.asarray(vector, float)
+    return given / np.linalg.norm(given)
 
 
-def from_sun(azimuth, zenith):
+def from_sun(azimuth: float, zenith: float) -> Triple:
     """Where light shines to that comes from an azimuth and a zenith angle in degrees."""
     a, z = math.radians(azimuth), math.radians(zenith)
     return (-math.sin(z) * math.cos(a), -math.sin(z) * math.sin(a), -math.cos(z))
 
 
-def view(eye, target, fov, width, height, aspect=1.0, tilt=0.0):
+def view(
+    eye: ArrayLike, target: ArrayLike, fov: float, width: int, height: int, aspect: float = 1.0, tilt: float = 0.0
+):
     """A VIEW by the formulas of the thesis's section 3.2 and the IR's conventions."""
     eye, target = np.asarray(eye, float), np.asarray(target, float)
     normal = unit(target - eye)
@@ -61,8 +75,9 @@ def view(eye, target, fov, width, height, aspect=1.0, tilt=0.0):
     right = unit(np.cross(normal, up))
     distance = 1 / math.tan(math.radians(fov) / 2)
 
-    def triple(vector):
-        return tuple(float(x) for x in vector)
+    def triple(vector: Floats) -> Triple:
+        x, y, z = vector.tolist()
+        return (x, y, z)
 
     return View(
         eye=triple(eye), target=triple(target), fov=fov, tilt=tilt, width=width, height=height, aspect=aspect,
@@ -75,25 +90,33 @@ def view(eye, target, fov, width, height, aspect=1.0, tilt=0.0):
 class SceneBuilder:
     """Collects rows; `build` makes the IR. Primitives go to a solid's or a light's row."""
 
-    def __init__(self, eye=(10.0, 0.0, 0.0), target=(0.0, 0.0, 0.0), fov=45.0, width=32, height=32, **options):
-        self.rows = {name: [] for name in TABLES}
+    def __init__(
+        self,
+        eye: ArrayLike = (10.0, 0.0, 0.0),
+        target: ArrayLike = (0.0, 0.0, 0.0),
+        fov: float = 45.0,
+        width: int = 32,
+        height: int = 32,
+        **options: float,
+    ):
+        self.rows: dict[str, list[dict[str, Any]]] = {name: [] for name in TABLES}
         self.scene = Scene(
             shadows=False, log_scale=0.0, depth=2, background=BLACK,
             ambient=Ambient(0.2, (0.5, 0.5, 0.5), 0, 0), haze=Haze(False, 1.0, WHITE, 0.0),
             sky=None, mirage=None, view=view(eye, target, fov, width, height, **options), extent=None,
         )  # fmt: skip
 
-    def set(self, **changes):
+    def set(self, **changes: Any) -> Self:
         """Replaces fields of the scene."""
         self.scene = self.scene._replace(**changes)
         return self
 
-    def add(self, table, **columns):
+    def add(self, table: str, **columns: Any):
         """Appends a row; columns that are not given are zero. Returns its number."""
         self.rows[table].append(columns)
         return len(self.rows[table]) - 1
 
-    def solid(self, **surface):
+    def solid(self, **surface: Any) -> Owner:
         """A solid with this surface; `textures` are (kind, columns) pairs."""
         textures = surface.pop("textures", [])
         surface = {
@@ -121,7 +144,7 @@ class SceneBuilder:
         )  # fmt: skip
         return ("solid", self.add("solids", transform=IDENTITY, inverse=IDENTITY))
 
-    def light(self, **columns):
+    def light(self, **columns: Any) -> Owner:
         """A light; infinite, from above and white unless said otherwise."""
         columns = {
             "kind": LightKind.INFINITE, "color": WHITE, "intensity": 1.0, "angle": 180.0,
@@ -130,54 +153,61 @@ class SceneBuilder:
         }  # fmt: skip
         return ("light", self.add("lights", **columns))
 
-    def sky(self, azimuth=0.0, zenith=0.0, **columns):
+    def sky(self, azimuth: float = 0.0, zenith: float = 0.0, **columns: Any):
         """A SKY and its sun."""
         _, sun = self.light(sun=True, direction=from_sun(azimuth, zenith), **columns.pop("sun", {}))
-        values = {
+        values: dict[str, Any] = {
             "radius": 1e10, "intensity": 1.0, "zenith_color": (0.0, 0.0, 1.0), "horizon_color": (0.9, 0.9, 1.0),
             "overcast": 0.0, **columns,
         }  # fmt: skip
         return self.set(sky=Sky(sun=sun, **values))
 
-    def mirage(self, profile, segments=500, distance=25000.0, elevation=500.0):
+    def mirage(self, profile: Profile, segments: int = 500, distance: float = 25000.0, elevation: float = 500.0):
         """A MIRAGE with a profile of (elevation, temperature) pairs."""
         for z, temperature in profile:
             self.add("profile", elevation=z, temperature=temperature)
         top = max(z for z, _ in profile)
         return self.set(mirage=Mirage(segments, distance, min(elevation, top)))
 
-    def primitive(self, kind, row, owner):
+    def primitive(self, kind: PrimitiveKind, row: int, owner: Owner):
         what, number = owner
         self.add(
             "primitives", kind=kind, row=row, solid=number if what == "solid" else -1,
             light=number if what == "light" else -1, transform=IDENTITY, inverse=IDENTITY,
         )  # fmt: skip
 
-    def sphere(self, center, radius, owner, pole=(0, 0, 1), equator=(1, 0, 0)):
+    def sphere(
+        self,
+        center: ArrayLike,
+        radius: float,
+        owner: Owner,
+        pole: ArrayLike = (0, 0, 1),
+        equator: ArrayLike = (1, 0, 0),
+    ):
         row = self.add("spheres", center=center, radius=radius, pole=pole, equator=equator)
         self.primitive(PrimitiveKind.SPHERE, row, owner)
 
-    def planar(self, kind, table, corners, owner):
+    def planar(self, kind: PrimitiveKind, table: str, corners: Corners, owner: Owner):
         first, second, third = (np.asarray(corner, float) for corner in corners)
         u, v = third - second, first - second
         self.primitive(kind, self.add(table, point=second, u=u, v=v, normal=np.cross(u, v)), owner)
 
-    def plane(self, corners, owner):
+    def plane(self, corners: Corners, owner: Owner):
         self.planar(PrimitiveKind.PLANE, "planes", corners, owner)
 
-    def triangle(self, corners, owner):
+    def triangle(self, corners: Corners, owner: Owner):
         self.planar(PrimitiveKind.TRIANGLE, "triangles", corners, owner)
 
-    def rectangle(self, corners, owner):
+    def rectangle(self, corners: Corners, owner: Owner):
         self.planar(PrimitiveKind.RECTANGLE, "rectangles", corners, owner)
 
-    def mesh(self, vertices, facets, owner, normals=None):
+    def mesh(self, vertices: Rows, facets: Rows, owner: Owner, normals: Rows | None = None):
         """POLYGONS; with `normals`, one a vertex, they are interpolated."""
         base, rows = len(self.rows["vertices"]), len(self.rows["normals"])
         first = len(self.rows["facets"])
         for vertex in vertices:
             self.add("vertices", position=vertex)
-        for normal in [] if normals is None else normals:
+        for normal in () if normals is None else normals:
             self.add("normals", direction=normal)
         for facet in facets:
             names = tuple(rows + i for i in facet) if normals is not None else (-1, -1, -1)
@@ -188,7 +218,7 @@ class SceneBuilder:
         )  # fmt: skip
         self.primitive(PrimitiveKind.POLYGONS, mesh, owner)
 
-    def build(self):
+    def build(self) -> SceneIR:
         tables = empty_tables()
         for name, rows in self.rows.items():
             for column, (dtype, shape, *_) in TABLES[name].items():
@@ -200,7 +230,7 @@ class SceneBuilder:
         return SceneIR(self.scene, tables, "test")
 
 
-def merman(width=320, height=200):
+def merman(width: int = 320, height: int = 200):
     """The thesis's first example: spheres and a rectangle 1.4 km away, seen through a strong inversion."""
     scene = SceneBuilder((1, 0, 2.1), (0, 0, 2.1001), 1.5, width, height, aspect=1.2)
     scene.set(log_scale=15.0, depth=3, ambient=Ambient(0.2, WHITE, 0, 0), haze=Haze(True, 0.0, (0.9, 0.9, 0.9), 0.0))

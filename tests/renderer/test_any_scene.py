@@ -3,6 +3,7 @@ picture, or how it is divided, never changes it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -11,8 +12,9 @@ from scene_builder import SceneBuilder, view
 import m3d_render
 import m3dc
 from fuzz import kernel
+from m3d_render import RenderOptions
 from m3d_render.optics import trace_paths
-from m3dc.ir import Ambient, LightKind
+from m3dc.ir import Ambient, LightKind, Triple
 from tree_sitter_m3d.table import LANGUAGE
 
 SCENES = Path(__file__).parent / "scenes"
@@ -20,14 +22,14 @@ BEYOND_REACH = {"ball-beyond-reach", "light-beyond-reach"}
 ENDLESS = {"endless-segments", "endless-segments-met"}
 
 
-def compiled(name):
+def compiled(name: str):
     return m3dc.compile((SCENES / f"{name}.m3d").read_bytes()).ir
 
 
 @pytest.mark.parametrize("name", sorted({path.stem for path in SCENES.iterdir()} - BEYOND_REACH - ENDLESS))
-def test_a_picture_depends_on_nothing_else(name):
+def test_a_picture_depends_on_nothing_else(name: str):
     ir = compiled(name)
-    options = {"width": 16, "height": 10, "samples": 2, "refract_reflections": True, "shadows": True}
+    options: RenderOptions = {"width": 16, "height": 10, "samples": 2, "refract_reflections": True, "shadows": True}
     scene = m3d_render.prepare(ir)
     whole = scene.render(**options).picture
     found = kernel.divided(ir, scene, whole, {**options, "normalize": False})
@@ -35,13 +37,13 @@ def test_a_picture_depends_on_nothing_else(name):
 
 
 @pytest.mark.parametrize("name", sorted(BEYOND_REACH))
-def test_what_no_arithmetic_holds_is_refused(name):
+def test_what_no_arithmetic_holds_is_refused(name: str):
     with pytest.raises(m3d_render.SceneError, match=r"spheres\.radius, row \d, is .*e1.*: up to 1e75 can be rendered"):
         m3d_render.prepare(compiled(name))
 
 
 @pytest.mark.parametrize("name", sorted(ENDLESS))
-def test_a_ray_without_end_is_cut_and_can_be_stopped(name):
+def test_a_ray_without_end_is_cut_and_can_be_stopped(name: str):
     ir = compiled(name)
     paths = trace_paths(ir, [1e-4, -1e-5], at=[1e15])
     assert paths.ends.tolist() == ["segments"] * 2
@@ -50,11 +52,11 @@ def test_a_ray_without_end_is_cut_and_can_be_stopped(name):
         m3d_render.render(ir, width=4000, height=4000, samples=64, cancel=lambda: True)
 
 
-def garden(scale=1.0, hidden=()):
+def garden(scale: float = 1.0, hidden: Sequence[Triple] = ()):
     """Shapes of all kinds, seen along the x axis: the middle row's rays are exactly level."""
     scene = SceneBuilder()
 
-    def at(*coordinates):
+    def at(*coordinates: float):
         return tuple(scale * x for x in coordinates)
 
     scene.set(
@@ -78,13 +80,13 @@ def garden(scale=1.0, hidden=()):
 
 
 @pytest.mark.parametrize("power", [-60, -20, 10, 30, 40, 45, 55, 58, 60, 66])
-def test_a_scene_of_any_size_has_the_same_picture(power):
+def test_a_scene_of_any_size_has_the_same_picture(power: int):
     expected = m3d_render.render(garden())
     assert m3d_render.render(garden(2.0**power)).tobytes() == expected.tobytes()
 
 
 @pytest.mark.parametrize("far", [1e9, 1e12, 1e15, 1e17, 1e18, 1e20])
-def test_what_lies_far_below_the_ground_changes_nothing(far):
+def test_what_lies_far_below_the_ground_changes_nothing(far: float):
     hidden = [(far, far, -5), (-far, far, -5), (far, 0, -far), (0, -far, -5)]
     assert m3d_render.render(garden(hidden=hidden)).tobytes() == m3d_render.render(garden()).tobytes()
 

@@ -1,5 +1,7 @@
 """The m3d-render command: exit status, messages, statistics."""
 
+from __future__ import annotations
+
 import contextlib
 import json
 import os
@@ -8,10 +10,13 @@ import re
 import signal
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenImageIO
 import pytest
+from pictures import channel_names, float_pixels, read_pixels
 from scene_builder import merman
 
 import m3d_render
@@ -21,19 +26,19 @@ from m3dc.ir import m3ir
 SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
 
 
-def command(*arguments, **options):
-    options = {"capture_output": True, "text": True, "timeout": 60, **options}
-    return subprocess.run([sys.executable, "-m", "m3d_render.cli", *map(str, arguments)], check=False, **options)
+def command(*arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
+    words = [sys.executable, "-m", "m3d_render.cli", *map(str, arguments)]
+    return subprocess.run(words, check=False, capture_output=True, text=True, timeout=60, **options)
 
 
 @pytest.fixture
-def compiled(tmp_path):
+def compiled(tmp_path: Path):
     path = tmp_path / "merman.m3ir"
     m3ir.write(merman(32, 20).build(), path)
     return path
 
 
-def test_a_compiled_scene_and_its_statistics(compiled, tmp_path):
+def test_a_compiled_scene_and_its_statistics(compiled: Path, tmp_path: Path):
     done = command(compiled, "-o", tmp_path / "a.png", "--stats", "--threads", "2")
     assert (done.returncode, done.stderr) == (0, "")
     stats = json.loads(done.stdout)
@@ -46,7 +51,7 @@ def test_a_compiled_scene_and_its_statistics(compiled, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["png", "tif", "exr"])
-def test_a_picture_says_what_it_is(compiled, tmp_path, suffix):
+def test_a_picture_says_what_it_is(compiled: Path, tmp_path: Path, suffix: str):
     picture = tmp_path / f"a.{suffix}"
     assert command(compiled, "-o", picture, "--straight", "--rows", "3:9").returncode == 0
     read = OpenImageIO.ImageBuf(str(picture)).spec().getattribute
@@ -58,11 +63,11 @@ def test_a_picture_says_what_it_is(compiled, tmp_path, suffix):
         assert read("mirage3d:region") == "3 0 9 31"
 
 
-def test_options_change_the_picture(compiled, tmp_path):
-    def pixels(*options):
+def test_options_change_the_picture(compiled: Path, tmp_path: Path):
+    def pixels(*options: str):
         done = command(compiled, "-o", tmp_path / "a.exr", *options)
         assert done.returncode == 0, done.stderr
-        return OpenImageIO.ImageBuf(str(tmp_path / "a.exr")).get_pixels(OpenImageIO.FLOAT)
+        return float_pixels(tmp_path / "a.exr")
 
     plain = pixels()
     assert pixels("--width", "16", "--height", "10").shape == (10, 16, 3)
@@ -70,7 +75,7 @@ def test_options_change_the_picture(compiled, tmp_path):
         assert not np.array_equal(pixels(*options), plain), options
 
 
-def test_a_source_text(tmp_path):
+def test_a_source_text(tmp_path: Path):
     source = tmp_path / "scene.m3d"
     source.write_text(SCENE)
     done = command(source, "-o", tmp_path / "a.raw")
@@ -81,7 +86,7 @@ def test_a_source_text(tmp_path):
     assert (tmp_path / "b.blue.raw").read_bytes() == bytes([153]) * 96
 
 
-def test_hints_are_not_shown(tmp_path):
+def test_hints_are_not_shown(tmp_path: Path):
     scene = tmp_path / "a.m3d"
     moved = "SOLID { SPHERE { } SURFACE { TEXTURE { CHECKER { } } } TRANSFORM { TRANSX 1 } }"
     scene.write_text(f"SCENE {{ SKY {{ }} VIEW {{ WIDTH 4 HEIGHT 4 }} }} {moved}")
@@ -89,7 +94,7 @@ def test_hints_are_not_shown(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_a_scene_with_errors_is_status_1(tmp_path):
+def test_a_scene_with_errors_is_status_1(tmp_path: Path):
     source = tmp_path / "scene.m3d"
     source.write_text("SCENE { VIEW { FOV <1,2,3> } }")
     done = command(source, "-o", tmp_path / "a.png")
@@ -98,7 +103,7 @@ def test_a_scene_with_errors_is_status_1(tmp_path):
     assert not (tmp_path / "a.png").exists()
 
 
-def test_a_scene_that_cannot_be_rendered_is_status_1(tmp_path):
+def test_a_scene_that_cannot_be_rendered_is_status_1(tmp_path: Path):
     path = tmp_path / "high.m3ir"
     scene = merman(4, 4)
     scene.rows["profile"] = [row for row in scene.rows["profile"] if row["elevation"] < 2]
@@ -139,7 +144,7 @@ def test_a_scene_that_cannot_be_rendered_is_status_1(tmp_path):
         (["binary.m3ir", "--check-normals"], "give the .m3d"),
     ],
 )
-def test_usage_and_files_are_status_2(tmp_path, arguments, says):
+def test_usage_and_files_are_status_2(tmp_path: Path, arguments: list[str], says: str):
     (tmp_path / "scene.m3d").write_text(SCENE)
     (tmp_path / "binary.m3ir").write_bytes(bytes(range(256)))
     (tmp_path / "folder.png").mkdir()
@@ -152,27 +157,27 @@ def test_usage_and_files_are_status_2(tmp_path, arguments, says):
     assert sorted(entry.name for entry in tmp_path.iterdir()) == before
 
 
-def test_extra_outputs_are_channels_of_an_exr(compiled, tmp_path):
+def test_extra_outputs_are_channels_of_an_exr(compiled: Path, tmp_path: Path):
     picture = tmp_path / "a.exr"
     done = command(compiled, "-o", picture, "--aov", "all", "--region", "2,3,11,20")
     assert done.returncode == 0, done.stderr
     read = OpenImageIO.ImageBuf(str(picture))
     names = {"R", "G", "B", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "solid", "primitive", "U", "V"}
-    assert set(read.spec().channelnames) == names | {"path.length", "path.arcs"}
+    assert set(channel_names(read)) == names | {"path.length", "path.arcs"}
     spec = read.spec()
     assert (spec.x, spec.y, spec.width, spec.height, spec.full_width, spec.full_height) == (3, 2, 18, 10, 32, 20)
     rendering = m3d_render.prepare(m3ir.read(compiled)).render(aov=["path", "position"], region=(2, 3, 11, 20))
-    pixels = read.get_pixels(OpenImageIO.FLOAT)
+    pixels = read_pixels(read, OpenImageIO.FLOAT)
     for name, values in [
         ("B", linear(rendering.picture)[..., 2]),
         ("path.arcs", rendering.layers["path"][..., 1]),
         ("P.Y", rendering.layers["position"][..., 1]),
     ]:
-        np.testing.assert_array_equal(pixels[..., spec.channelnames.index(name)], values)
+        np.testing.assert_array_equal(pixels[..., channel_names(read).index(name)], values)
 
 
-def test_rows_of_separate_runs_join(compiled, tmp_path):
-    def planes(name, *options):
+def test_rows_of_separate_runs_join(compiled: Path, tmp_path: Path):
+    def planes(name: str, *options: str):
         assert command(compiled, "-o", tmp_path / f"{name}.raw", *options).returncode == 0
         return (tmp_path / f"{name}.red.raw").read_bytes()
 
@@ -184,14 +189,14 @@ SFACETS {{ 1  0 1 2  <0,0,1> <0,0,1> <0,0,{}> }} }} }}"""
 
 
 @pytest.mark.parametrize(("z", "status"), [(1, 0), (-1, 1)])
-def test_normals_are_checked(tmp_path, z, status):
+def test_normals_are_checked(tmp_path: Path, z: int, status: int):
     done = command("-", "--check-normals", input=MESH.format(z), cwd=tmp_path)
     assert done.returncode == status, done.stderr
     assert ("Normal on wrong side of facet" in done.stderr) == bool(status)
     assert not list(tmp_path.iterdir())
 
 
-def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_path):
+def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled: Path, tmp_path: Path):
     # Slow by its many samples. The interrupt comes once the line of progress says that rows are finished.
     options = ["--width", "400", "--height", "2000", "--samples", "64"]
     whole, part = tmp_path / "whole.exr", tmp_path / "part.exr"
@@ -214,9 +219,9 @@ def test_an_interrupt_is_status_130_and_keeps_the_finished_rows(compiled, tmp_pa
     done = int(rows[2])
     assert 0 < done < 2000
     assert command(compiled, "-o", whole, *options, "--rows", f"0:{done - 1}").returncode == 0
-    pictures = [OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT) for path in (whole, part)]
-    np.testing.assert_array_equal(*pictures)
-    assert pictures[0].shape == (done, 400, 3)
+    finished = float_pixels(part)
+    np.testing.assert_array_equal(float_pixels(whole), finished)
+    assert finished.shape == (done, 400, 3)
 
 
 # The command, with an interrupt as it asks for the thirtieth time whether there was one.
@@ -237,7 +242,7 @@ sys.exit(main())
 """
 
 
-def test_an_interrupt_before_a_row_is_finished_leaves_the_old_picture(compiled, tmp_path):
+def test_an_interrupt_before_a_row_is_finished_leaves_the_old_picture(compiled: Path, tmp_path: Path):
     picture = tmp_path / "a.png"
     picture.write_text("old")
     # A single row takes an hour.

@@ -1,28 +1,33 @@
 """Light: sampled ambient light, FUZZ, what lights may be told, and mirrors in air that bends light."""
 
+from __future__ import annotations
+
 import itertools
 import math
+from pathlib import Path
+from typing import Any, Unpack
 
 import numpy as np
 import pytest
-from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, from_sun
+from scene_builder import BLACK, MERMAN_PROFILE, WHITE, Profile, SceneBuilder, from_sun
 
 import m3d_render
-from m3dc.ir import Ambient, LightKind, m3ir
+from m3d_render import Picture, RenderOptions
+from m3dc.ir import Ambient, LightKind, Triple, m3ir
 
 AXIS, DIAGONAL = 0.515594, 0.490719
 """Mean of N.D over the thesis's random directions, for a normal along an axis of space and along a diagonal."""
 
 
-def render(scene, **options):
+def render(scene: SceneBuilder, **options: Unpack[RenderOptions]) -> Picture:
     return m3d_render.render(scene.build(), **options)
 
 
-def middle(picture):
+def middle(picture: Picture):
     return picture[picture.shape[0] // 2, picture.shape[1] // 2]
 
 
-def sampled(samples, depth=2, constant=0.0):
+def sampled(samples: int, depth: int = 2, constant: float = 0.0):
     return Ambient(constant, WHITE, samples, depth)
 
 
@@ -47,7 +52,7 @@ def test_a_white_sphere_in_constant_light_is_that_light():
 
 
 @pytest.mark.parametrize(("toward", "factor"), [((10, 0, 0), AXIS), ((6, 6, 6), DIAGONAL)])
-def test_sampled_light_converges_to_the_mean_cosine(toward, factor):
+def test_sampled_light_converges_to_the_mean_cosine(toward: Triple, factor: float):
     """A disc of the sphere that looks along one direction, in a sky of 0.8 and white diffuse by three quarters."""
     scene = SceneBuilder(toward, (0, 0, 0), 0.5, 9, 9).set(ambient=sampled(4000), background=(0.8, 0.4, 0.2))
     scene.sphere((0, 0, 0), 1, scene.solid(specular=0.25, rough=0.0, hard=0.0, color=(1, 1, 0.5)))
@@ -60,7 +65,7 @@ def test_sampled_light_converges_to_the_mean_cosine(toward, factor):
 
 
 def test_sampled_light_does_not_heed_the_surfaces_ambient_reflectance():
-    def patch(**surface):
+    def patch(**surface: Any):
         scene = SceneBuilder((10, 0, 0), (0, 0, 0), 1, 5, 5).set(ambient=sampled(16), background=WHITE)
         scene.sphere((0, 0, 0), 1, scene.solid(**surface))
         return render(scene)
@@ -69,10 +74,10 @@ def test_sampled_light_does_not_heed_the_surfaces_ambient_reflectance():
 
 
 @pytest.mark.parametrize("samples", [1, 8])
-def test_below_the_depth_the_constant_stands_for_sampled_light(samples):
+def test_below_the_depth_the_constant_stands_for_sampled_light(samples: int):
     """Inside a closed box of surfaces that glow by constant ambient light alone each level adds its share."""
 
-    def seen(depth):
+    def seen(depth: int):
         scene = SceneBuilder((0, 0, 0), (1, 0, 0), 20, 21, 21).set(ambient=sampled(samples, depth, 0.5))
         scene.sphere((0, 0, 0), 5, scene.solid(color=(0.8, 0.8, 0.8), ambient=1.0))
         return render(scene).mean()
@@ -92,7 +97,7 @@ def test_a_closed_room_sampled_without_end_still_ends():
 
 
 def test_sample_rays_are_blocked_and_coloured_by_what_they_meet():
-    def ground(wall_color):
+    def ground(wall_color: Triple | None):
         scene = SceneBuilder((0, 0, 10), (0.001, 0, 0), 1, 15, 15)
         scene.set(ambient=sampled(256, 2, 1.0), background=(0.5, 0.5, 0.5))
         scene.plane(((1, 0, 0), (0, 0, 0), (0, 1, 0)), scene.solid(ambient=1.0))
@@ -109,7 +114,7 @@ def test_sample_rays_are_blocked_and_coloured_by_what_they_meet():
 
 
 def test_sample_rays_do_not_see_lights():
-    def sphere(lamp):
+    def sphere(lamp: bool):
         scene = SceneBuilder((10, 0, 0), (0, 0, 0), 1, 9, 9).set(ambient=sampled(64), background=(0.2, 0.2, 0.2))
         scene.sphere((0, 0, 0), 1, scene.solid())
         if lamp:
@@ -152,7 +157,7 @@ def test_sampled_light_is_the_same_however_the_work_is_divided():
 
 
 def test_fuzz_deviates_normals_more_the_larger_it_is():
-    def lit(fuzz):
+    def lit(fuzz: float):
         scene = SceneBuilder((10, 0, 0), (0, 0, 0), 4, 61, 61).set(ambient=Ambient(0.0, WHITE, 0, 0))
         scene.light(direction=(-1, 0, 0))
         scene.rectangle(((0, -9, 9), (0, -9, -9), (0, 9, -9)), scene.solid(fuzz=fuzz))
@@ -170,7 +175,7 @@ def test_fuzz_deviates_normals_more_the_larger_it_is():
 
 
 def test_fuzz_blurs_a_mirror():
-    def seen(fuzz):
+    def seen(fuzz: float):
         scene = SceneBuilder((10, 0, 0), (0, 0, 0), 40, 61, 61).set(ambient=Ambient(0.0, WHITE, 0, 0), depth=2)
         scene.plane(((0, 0, 1), (0, 0, 0), (0, 1, 0)), scene.solid(specular=1.0, hard=1.0, rough=0.0, fuzz=fuzz))
         scene.sky(0, 0, overcast=1.0)
@@ -184,7 +189,7 @@ def test_fuzz_blurs_a_mirror():
 # Lights
 
 
-def lit_sphere(**light):
+def lit_sphere(**light: Any):
     scene = SceneBuilder((10, 0, 0), (0, 0, 0), 14, 41, 41).set(ambient=Ambient(0.0, WHITE, 0, 0))
     scene.light(direction=(-1, 0.3, -0.5), **light)
     scene.sphere((0, 0, 0), 1, scene.solid(color=(0.5, 0.1, 0.1), specular=0.6, rough=0.2, hard=0.0))
@@ -206,7 +211,7 @@ def test_noshadows_lights_what_is_behind_something():
 
 
 def test_an_overcast_sky_does_not_dim_the_sun():
-    def ground(overcast):
+    def ground(overcast: float):
         scene = SceneBuilder((0, 0, 10), (0.001, 0, 0), 5, 3, 3).set(ambient=Ambient(0.0, WHITE, 0, 0))
         scene.sky(30, 40, overcast=overcast)
         scene.plane(((1, 0, 0), (0, 0, 0), (0, 1, 0)), scene.solid())
@@ -217,7 +222,7 @@ def test_an_overcast_sky_does_not_dim_the_sun():
 
 
 @pytest.mark.parametrize("rough", [0.1, 0.3, 0.7, 1.0])
-def test_a_highlight_adds_no_more_light_than_there_is(rough):
+def test_a_highlight_adds_no_more_light_than_there_is(rough: float):
     """k_s O_s (N.L) of a white light, from all sides: the facet term is at most one, its divisor keeps the rest."""
     worst = 0.0
     for zenith in (0, 30, 60, 85):
@@ -232,7 +237,7 @@ def test_a_highlight_adds_no_more_light_than_there_is(rough):
 # Mirrors in bent light
 
 
-def mirage_mirror(profile, height=0.0):
+def mirage_mirror(profile: Profile, height: float = 0.0):
     """A mirror as ground under the merman's eye, a wall far away."""
     scene = SceneBuilder((500, 0, 2.1), (0, 0, 0.0), 2.0, 24, 90).set(ambient=Ambient(1.0, WHITE, 0, 0), depth=2)
     scene.mirage(profile, segments=400)
@@ -248,11 +253,11 @@ def test_reflections_are_refracted_only_if_asked():
     scene = mirage_mirror(MERMAN_PROFILE)
     plain, bent = render(scene), render(scene, refract_reflections=True)
     assert not np.array_equal(plain, bent)
-    straight = [render(scene, straight=True, refract_reflections=on) for on in (True, False)]
-    np.testing.assert_array_equal(*straight)
+    asked, not_asked = (render(scene, straight=True, refract_reflections=on) for on in (True, False))
+    np.testing.assert_array_equal(asked, not_asked)
 
 
-def test_the_scene_may_ask_for_refracted_reflections(tmp_path):
+def test_the_scene_may_ask_for_refracted_reflections(tmp_path: Path):
     scene = mirage_mirror(MERMAN_PROFILE)
     plain, bent = render(scene), render(scene, refract_reflections=True)
     m3ir.write(scene.set(refract_reflections=True).build(), tmp_path / "asks.m3ir")
@@ -273,11 +278,11 @@ def test_a_mirror_ray_bends_as_an_eye_ray_from_there_would():
     rows = np.flatnonzero(on_mirror & (seen.layers["position"][:, 12, 0] > -700))
     assert len(rows) > 20
     checked = 0
-    for row in rows:
+    for row in rows.tolist():
         point = seen.layers["position"][row, 12].astype(float)
         # The eye's ray is a plane curve in x and z: its slope where it comes down, mirrored, goes on.
         view = np.array(scene.scene.view.eye)
-        start = m3d_render.optics.trace_paths(
+        start = trace_paths(
             ir, [math.atan2(*_direction(scene, 12, row)[[2, 0]] * [1, -1])], at=[view[0] - point[0] - 0.01]
         )
         slope = (0.0 - start.heights[0, 0]) / 0.01
@@ -290,7 +295,7 @@ def test_a_mirror_ray_bends_as_an_eye_ray_from_there_would():
     assert checked >= 5
 
 
-def _direction(scene, x, y):
+def _direction(scene: SceneBuilder, x: int, y: int):
     view = scene.scene.view
     point = (
         np.array(view.reference_point)
@@ -309,7 +314,7 @@ def test_outside_of_the_layers_mirror_rays_are_straight():
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_without_curvature_refracted_reflections_are_the_straight_ones(seed):
+def test_without_curvature_refracted_reflections_are_the_straight_ones(seed: int):
     """Every kind of mirror, in air that bends nothing: layers of no curvature, found for the middle of each."""
     rng = np.random.default_rng(seed)
     scene = SceneBuilder((60, 0, 6), (0, 0, 4), 30, 60, 45).set(ambient=Ambient(1.0, WHITE, 0, 0), depth=5)
@@ -329,7 +334,7 @@ def test_without_curvature_refracted_reflections_are_the_straight_ones(seed):
     assert different.mean() < 0.002, different.sum()  # grazed edges alone
 
 
-def flat_air(heights):
+def flat_air(heights: list[float]):
     """A profile whose curvature at each layer's middle is the earth's, so that rays are straight lines."""
     from test_render import zero_curvature_profile
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Unpack
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import m3dc
-from m3d_render import render, wireframe
+from m3d_render import RenderOptions, render, wireframe
 from m3d_render.mirage3d import main
 from m3d_render.picture import to_bytes
 
@@ -26,12 +28,12 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def planes(height: int, width: int, *names: str) -> np.ndarray:
+def planes(height: int, width: int, *names: str) -> NDArray[np.uint8]:
     files = names or ("red.raw", "green.raw", "blue.raw")
     return np.stack([np.fromfile(name, np.uint8).reshape(height, width) for name in files], axis=-1)
 
 
-def expected(**options: object) -> np.ndarray:
+def expected(**options: Unpack[RenderOptions]) -> NDArray[np.uint8]:
     return to_bytes(render(m3dc.compile(SCENE).ir, **options))
 
 

@@ -1,7 +1,10 @@
 """The scenes of mirages show what they are named after."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,24 +12,25 @@ import pytest
 import m3dc
 from m3d_render import plot, prepare
 from m3d_render.optics import EARTH_CURVATURE, trace_paths
+from m3dc.ir import SceneIR
 
 MINUTES = np.pi / 180 / 60
 
 
-def scene(examples, name):
+def scene(examples: Path, name: str):
     result = m3dc.compile((examples / f"{name}.m3d").read_bytes(), name)
     assert result.diagnostics == ()
     return result.ir
 
 
-def images(ir, distance, height):
+def images(ir: SceneIR, distance: float, height: float):
     """The images of one height at a distance, from the lowest: upright (+1) or upside down (-1)."""
     seen = plot.transfer_characteristic(ir, [distance]).heights[0]
     apart = seen - height
     return np.sign(np.diff(seen))[apart[:-1] * apart[1:] < 0].tolist()
 
 
-def test_the_hot_road_turns_over_what_stands_on_it(examples):
+def test_the_hot_road_turns_over_what_stands_on_it(examples: Path):
     ir = scene(examples, "hot-road")
     assert images(ir, 600, 1.0) == [-1, 1]
     assert images(ir, 600, 3.0) == [1], "too high for a second image"
@@ -39,7 +43,7 @@ def test_the_hot_road_turns_over_what_stands_on_it(examples):
     assert len(rows) > 8
 
 
-def test_the_fata_morgana_has_three_images(examples):
+def test_the_fata_morgana_has_three_images(examples: Path):
     ir = scene(examples, "fata-morgana")
     assert images(ir, 18_000, 12.0) == [1, -1, 1]
     assert images(ir, 12_000, 8.0) == [1]
@@ -49,7 +53,7 @@ def test_the_fata_morgana_has_three_images(examples):
     assert heights["inverted"] > 5 * MINUTES
 
 
-def test_the_novaya_zemlya_duct_carries_light_around_the_earth(examples):
+def test_the_novaya_zemlya_duct_carries_light_around_the_earth(examples: Path):
     ir = scene(examples, "novaya-zemlya")
     paths = trace_paths(ir, np.arange(-4, 4.1, 0.5) * MINUTES, at=[200_000])
     assert set(paths.ends) == {"range"}
@@ -64,7 +68,7 @@ def test_the_novaya_zemlya_duct_carries_light_around_the_earth(examples):
 
 
 @pytest.mark.parametrize(("distance", "elevation"), [("3", 7), ("2.68", 6.2), ("2.6", 6), ("1.4", 3)])
-def test_the_pilot_comes_in(examples, distance, elevation):
+def test_the_pilot_comes_in(examples: Path, distance: str, elevation: float):
     command = [sys.executable, str(examples / "approach.py"), distance, "--fov", "7", "--level"]
     result = m3dc.compile(subprocess.run(command, capture_output=True, check=True).stdout)
     assert result.diagnostics == ()
@@ -73,10 +77,10 @@ def test_the_pilot_comes_in(examples, distance, elevation):
     assert (view.target, view.fov) == ((0, 0, elevation), 7)
 
 
-def test_the_pilot_sees_images_only_from_within_the_thermocline(examples):
+def test_the_pilot_sees_images_only_from_within_the_thermocline(examples: Path):
     runway = (examples / "runway.m3d").read_text()
 
-    def from_height(eye, height):
+    def from_height(eye: float, height: float):
         text = runway.replace(
             "FROM < 3000, 0, 7 > TO < 0, 0, 0 > FOV 14", f"FROM < 3000, 0, {eye} > TO < 0, 0, {eye} > FOV 1"
         )

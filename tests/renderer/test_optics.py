@@ -1,11 +1,17 @@
 """The curves of eye rays, against an independent integration of the equation of the ray."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
-from scene_builder import MERMAN_PROFILE, SceneBuilder
+from array_types import Floats
+from scene_builder import MERMAN_PROFILE, Profile, SceneBuilder
 from scipy.integrate import solve_ivp
 
 import m3d_render
@@ -15,13 +21,27 @@ from m3d_render.optics import air_layers, trace_crossings, trace_paths
 
 EPSILON, BETA, GRAVITY, EARTH, SEA_LEVEL = 226e-6, 3.48e-3, 9.80665, 6_371_000.0, 101_325.0
 EYE = 2.1
+Truth: TypeAlias = tuple[Floats, Floats, list[bool]]
+
 DISTANCES = (500.0, 1000.0, 1400.0)
+
+
+@dataclass(frozen=True)
+class Leaving:
+    """An event of `solve_ivp`, which ends there: a ray that passes a height downward (-1) or upward (1)."""
+
+    height: float
+    direction: float
+    terminal: bool = True
+
+    def __call__(self, _: float, y: Floats) -> float:
+        return y[0] - self.height
 
 
 class Air:
     """Pressure, temperature and curvature at every height: the continuous atmosphere, not layers."""
 
-    def __init__(self, profile):
+    def __init__(self, profile: Profile):
         self.z = np.array([z for z, _ in profile])
         self.t = np.array([celsius + 273.15 for _, celsius in profile])
         self.gradient = np.diff(self.t) / np.diff(self.z)
@@ -29,13 +49,13 @@ class Air:
         for i, gradient in enumerate(self.gradient):
             self.p.append(self._from(i, gradient, self.z[i + 1]))
 
-    def _from(self, i, gradient, z):
+    def _from(self, i: int, gradient: float, z: float):
         t = self.t[i] + gradient * (z - self.z[i])
         if gradient == 0:
             return self.p[i] * math.exp(-BETA * GRAVITY * (z - self.z[i]) / self.t[i])
         return self.p[i] * (t / self.t[i]) ** (-BETA * GRAVITY / gradient)
 
-    def bend(self, interval, z):
+    def bend(self, interval: int, z: float):
         """z'' = -(κ - 1/R) in an interval of the profile."""
         gradient = self.gradient[interval]
         t = self.t[interval] + gradient * (z - self.z[interval])
@@ -44,7 +64,7 @@ class Air:
         kappa = EPSILON * BETA * p * (gradient + BETA * GRAVITY) / (eta * t * t)
         return 1 / EARTH - kappa
 
-    def heights(self, angle, at):
+    def heights(self, angle: float, at: Sequence[float]):
         """Heights at distances, NaN beyond the end, and whether the ray ended at the ground."""
         interval = int(np.searchsorted(self.z, EYE)) - 1
         r, z, slope = 0.0, EYE, math.tan(angle)
@@ -52,18 +72,12 @@ class Air:
         while r < max(at):
             low, high = self.z[interval], self.z[interval + 1]
 
-            def leaves_below(_, y, low=low):
-                return y[0] - low
-
-            def leaves_above(_, y, high=high):
-                return y[0] - high
-
-            leaves_below.terminal = leaves_above.terminal = True
-            leaves_below.direction, leaves_above.direction = -1, 1
             step = solve_ivp(
                 lambda _, y, i=interval: [y[1], self.bend(i, y[0])], (r, max(at)), [z, slope], method="DOP853",
-                rtol=1e-12, atol=1e-13, events=[leaves_below, leaves_above], dense_output=True, max_step=50.0,
+                rtol=1e-12, atol=1e-13, events=[Leaving(low, -1), Leaving(high, 1)], dense_output=True, max_step=50.0,
             )  # fmt: skip
+            assert step.sol is not None
+            assert step.t_events is not None
             for k, distance in enumerate(at):
                 if r <= distance <= step.t[-1]:
                     found[k] = step.sol(distance)[0]
@@ -93,7 +107,7 @@ def truth():
 
 
 @pytest.mark.parametrize(("finer", "millimetres"), [(1, 0.5), (8, 0.05)])
-def test_heights_agree_with_a_high_order_solution(truth, finer, millimetres):
+def test_heights_agree_with_a_high_order_solution(truth: Truth, finer: int, millimetres: float):
     angles, heights, grounded = truth
     paths = trace_paths(merman_air(), angles, at=DISTANCES, finer=finer)
     np.testing.assert_array_equal(np.isnan(paths.heights), np.isnan(heights))
@@ -176,7 +190,7 @@ def test_a_level_ray_on_a_boundary_is_where_its_neighbours_are():
     assert rows[0].any() or rows[0, 0] == 0
 
 
-def with_an_air_of(*profile):
+def with_an_air_of(*profile: tuple[float, float]):
     return SceneBuilder(eye=(0, 0, 30), target=(1000, 0, 30), fov=0.5, width=5, height=5).mirage(
         profile, segments=100_000, distance=40_000
     )
@@ -191,8 +205,8 @@ def with_an_air_of(*profile):
     ],
 )
 @pytest.mark.parametrize("make", ["box", "ball", "floor", "plate", "plane"])
-def test_a_level_ray_on_a_boundary_meets_what_its_neighbours_meet(profile, make):
-    depths = []
+def test_a_level_ray_on_a_boundary_meets_what_its_neighbours_meet(profile: Profile, make: str):
+    depths: list[float] = []
     for moved in (0.0, 1e-7, -1e-7):
         scene = with_an_air_of(*profile)
         row = scene.solid()
@@ -210,6 +224,6 @@ def test_a_level_ray_on_a_boundary_meets_what_its_neighbours_meet(profile, make)
             scene.mesh(corners, [half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))], row)
         view = scene.scene.view
         scene.set(view=view._replace(eye=(0.0, 0.0, 30 + moved)))
-        depths.append(m3d_render.prepare(scene.build()).render(aov=["depth"]).layers["depth"][2, 2])
+        depths.append(m3d_render.prepare(scene.build()).render(aov=["depth"]).layers["depth"][2, 2].item())
     level, above, below = depths
     assert level in (pytest.approx(above, abs=0.5), pytest.approx(below, abs=0.5)), depths

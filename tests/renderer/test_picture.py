@@ -1,5 +1,7 @@
 """Pictures in files."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys
@@ -9,10 +11,13 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO
 import pytest
+from numpy.typing import NDArray
+from pictures import channel_names, read_pixels, stored
 
 import m3d_render
 import m3dc
-from m3d_render.picture import linear, plane_paths, to_bytes
+from m3d_render import Picture
+from m3d_render.picture import SUFFIXES, linear, plane_paths, to_bytes
 
 
 @pytest.fixture
@@ -21,22 +26,22 @@ def picture():
 
 
 @pytest.mark.parametrize(("suffix", "step"), [("png", 255), ("tif", 65535), ("exr", None), ("PNG", 255)])
-def test_what_is_written_can_be_read(tmp_path, picture, suffix, step):
+def test_what_is_written_can_be_read(tmp_path: Path, picture: Picture, suffix: str, step: int | None):
     path = tmp_path / f"a b.{suffix}"
     assert m3d_render.write_picture(path, picture, {"Software": "m3d-render test"}) == [path]
     read = OpenImageIO.ImageBuf(str(path))
     assert read.spec().getattribute("Software") == "m3d-render test"
-    pixels = read.get_pixels(OpenImageIO.FLOAT)
-    pixels = pixels[..., [read.spec().channelnames.index(name) for name in "RGB"]]
+    pixels = read_pixels(read, OpenImageIO.FLOAT)
+    pixels = pixels[..., [channel_names(read).index(name) for name in "RGB"]]
     expected = linear(picture) if step is None else np.rint(picture * step) / step
     np.testing.assert_allclose(pixels, expected, atol=1e-6)
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
-def test_all_formats_mean_the_same_brightness(tmp_path):
+def test_all_formats_mean_the_same_brightness(tmp_path: Path):
     """Each converted to linear light by what its file says it holds."""
     picture = np.linspace(0, 1, 256 * 3, dtype=np.float32).reshape(16, 16, 3)
-    found = {}
+    found: dict[str, NDArray[np.float32]] = {}
     for suffix in ("png", "tif", "exr"):
         path = tmp_path / f"a.{suffix}"
         m3d_render.write_picture(path, picture)
@@ -44,7 +49,7 @@ def test_all_formats_mean_the_same_brightness(tmp_path):
         space = read.spec().getattribute("oiio:ColorSpace")
         light = OpenImageIO.ImageBufAlgo.colorconvert(read, space, "lin_rec709_scene")
         assert not light.has_error, light.geterror()
-        found[suffix] = light.get_pixels(OpenImageIO.FLOAT)
+        found[suffix] = read_pixels(light, OpenImageIO.FLOAT)
     np.testing.assert_allclose(found["exr"], linear(picture), atol=1e-7)
     np.testing.assert_allclose(found["tif"], found["exr"], atol=5e-5)
     np.testing.assert_allclose(found["png"], found["exr"], atol=5e-3)
@@ -52,7 +57,9 @@ def test_all_formats_mean_the_same_brightness(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["png", "tif", "exr"])
-def test_a_picture_holds_no_time_but_the_one_that_is_asked_for(tmp_path, picture, suffix, monkeypatch):
+def test_a_picture_holds_no_time_but_the_one_that_is_asked_for(
+    tmp_path: Path, picture: Picture, suffix: str, monkeypatch: pytest.MonkeyPatch
+):
     def written():
         path = tmp_path / f"a.{suffix}"
         m3d_render.write_picture(path, picture)
@@ -69,8 +76,8 @@ def test_a_picture_holds_no_time_but_the_one_that_is_asked_for(tmp_path, picture
 NOT_UTF8 = os.fsdecode(b"caf\xe9")
 
 
-@pytest.mark.parametrize("suffix", m3d_render.picture.SUFFIXES)
-def test_a_name_may_be_no_utf8(tmp_path, picture, suffix):
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_name_may_be_no_utf8(tmp_path: Path, picture: Picture, suffix: str):
     folder = tmp_path / NOT_UTF8
     folder.mkdir()
     for path in m3d_render.write_picture(folder / f"{NOT_UTF8}{suffix}", picture):
@@ -93,8 +100,8 @@ except PictureError as error:
 
 
 @pytest.mark.parametrize("room", [0, 5000, -1])
-@pytest.mark.parametrize("suffix", m3d_render.picture.SUFFIXES)
-def test_a_full_disk_leaves_the_old_file(tmp_path, suffix, room):
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_full_disk_leaves_the_old_file(tmp_path: Path, suffix: str, room: int):
     path = tmp_path / f"a{suffix}"
     olds = plane_paths(path) if suffix == ".raw" else [path]
     if room < 0:  # the last byte is missing
@@ -113,7 +120,7 @@ def test_a_full_disk_leaves_the_old_file(tmp_path, suffix, room):
     assert {old.read_text() for old in olds} == {"old"}
 
 
-def test_planar_files(tmp_path, picture):
+def test_planar_files(tmp_path: Path, picture: Picture):
     written = m3d_render.write_picture(tmp_path / "scene.v1.raw", picture)
     assert [path.name for path in written] == ["scene.v1.red.raw", "scene.v1.green.raw", "scene.v1.blue.raw"]
     for channel, path in enumerate(written):
@@ -126,33 +133,43 @@ def test_eight_bits_are_rounded_and_clipped():
 
 
 @pytest.mark.parametrize("name", ["picture", "picture.jpg", "picture.png.txt"])
-def test_an_unknown_suffix_is_refused(tmp_path, picture, name):
+def test_an_unknown_suffix_is_refused(tmp_path: Path, picture: Picture, name: str):
     with pytest.raises(m3d_render.PictureError, match="must name the picture's format"):
         m3d_render.write_picture(tmp_path / name, picture)
 
 
-def test_a_failed_write_leaves_the_old_file(tmp_path, picture, monkeypatch):
+def test_a_failed_write_leaves_the_old_file(tmp_path: Path, picture: Picture, monkeypatch: pytest.MonkeyPatch):
     path = tmp_path / "old.png"
     path.write_text("old")
     wide = np.zeros((2, 2, 3, 2))
     with pytest.raises(ValueError, match="unpack"):
         m3d_render.write_picture(path, wide)
-    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
     with pytest.raises(m3d_render.PictureError, match="No space left"):
         m3d_render.write_picture(path, picture)
     assert path.read_text() == "old"
     assert [entry.name for entry in tmp_path.iterdir()] == ["old.png"]
 
 
-def test_a_folder_that_does_not_exist(tmp_path, picture):
+def test_a_folder_that_does_not_exist(tmp_path: Path, picture: Picture):
     with pytest.raises(m3d_render.PictureError, match="No such file"):
         m3d_render.write_picture(tmp_path / "none" / "a.exr", picture)
 
 
-def test_a_rendering_shows_itself_in_a_notebook(tmp_path):
+def notebook_png(rendering: m3d_render.Rendering) -> bytes | None:
+    return rendering._repr_png_()  # pyright: ignore[reportPrivateUsage]  the name that notebooks call
+
+
+def test_a_rendering_shows_itself_in_a_notebook(tmp_path: Path):
     scene = m3dc.compile("SCENE { SKY { } VIEW { WIDTH 16 HEIGHT 10 } } SOLID { SPHERE { } }").ir
     rendering = m3d_render.prepare(scene).render()
-    (tmp_path / "a.png").write_bytes(rendering._repr_png_())
-    pixels = OpenImageIO.ImageBuf(str(tmp_path / "a.png")).get_pixels(OpenImageIO.UINT8)
+    shown = notebook_png(rendering)
+    assert shown
+    (tmp_path / "a.png").write_bytes(shown)
+    pixels = stored(tmp_path / "a.png")
     np.testing.assert_array_equal(pixels, to_bytes(rendering.picture))
-    assert replace(rendering, picture=rendering.picture[:0])._repr_png_() is None, "there is nothing to see"
+    assert notebook_png(replace(rendering, picture=rendering.picture[:0])) is None, "there is nothing to see"

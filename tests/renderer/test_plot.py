@@ -1,5 +1,7 @@
 """The data of figures: the profile, the fan of rays and what they pass, the transfer characteristic."""
 
+from __future__ import annotations
+
 import math
 from itertools import pairwise
 
@@ -12,13 +14,13 @@ from m3d_render import plot, prepare
 from m3d_render.optics import EARTH_CURVATURE, trace_paths
 from m3d_render.rendering import SceneError
 from m3d_render.sight import view_angles
-from m3dc.ir import PrimitiveKind, TextureKind
+from m3dc.ir import PrimitiveKind, SceneIR, TextureKind
 
 MILLIMETRE = 1e-3
 RULER = 20.0  # m
 
 
-def ruler_scene(distance, rows=401):
+def ruler_scene(distance: float, rows: int = 401):
     """The merman's air and observer, and a ruler at a distance whose brightness is the height / RULER."""
     scene = SceneBuilder((1, 0, 2.1), (0, 0, 2.1), 1.5, 3, rows, aspect=1.2 * 200 / 320 * 3 / rows)
     scene.set(ambient=scene.scene.ambient._replace(intensity=1.0, color=(1.0, 1.0, 1.0)))
@@ -32,7 +34,7 @@ def ruler_scene(distance, rows=401):
     return scene.build()
 
 
-def row_angles(ir):
+def row_angles(ir: SceneIR):
     """Angles above the horizontal of the rows of a level view's pixels, the lowest first."""
     view = ir.scene.view
     v = np.arange(view.height) / (view.height - 1)
@@ -41,7 +43,7 @@ def row_angles(ir):
 
 
 @pytest.mark.parametrize("distance", [700.0, 1400.0])
-def test_the_transfer_characteristic_is_what_a_rendered_ruler_shows(distance):
+def test_the_transfer_characteristic_is_what_a_rendered_ruler_shows(distance: float):
     ir = ruler_scene(distance)
     rendering = prepare(ir).render(aov=["position"])
     position = rendering.layers["position"][::-1, 1].astype(float)
@@ -116,9 +118,9 @@ def test_crossings_are_where_two_rays_are_at_one_height():
     angles = np.radians(np.arange(0, 8, 0.5) / 60)
     fan = plot.ray_fan(ir, angles, 1500.0)
     assert len(fan.crossings) >= 3
-    for (r, z), angle in zip(fan.crossings, fan.crossing_angles, strict=True):
-        i = int(np.searchsorted(angles, angle)) - 1
-        first, second = trace_paths(ir, angles[i : i + 2], at=[r]).heights[:, 0]
+    for (r, z), angle in zip(fan.crossings.tolist(), fan.crossing_angles, strict=True):
+        i = int(np.searchsorted(angles, float(angle))) - 1
+        first, second = trace_paths(ir, angles[i : i + 2], at=[r]).heights[:, 0].tolist()
         assert first == pytest.approx(second, abs=MILLIMETRE)
         assert z == pytest.approx(first, abs=MILLIMETRE)
     straight = SceneBuilder((0, 0, 2), (1, 0, 2)).build()
@@ -160,7 +162,7 @@ def test_the_plane_turns_to_the_right():
 
 
 def test_angles_of_a_view():
-    def angles(to):
+    def angles(to: str):
         ir = m3dc.compile(f"SCENE {{ VIEW {{ FROM <0,0,9> TO <{to}> FOV 60 WIDTH 9 HEIGHT 9 }} }} LIGHT {{ }}").ir
         return np.degrees(view_angles(ir))
 
@@ -171,7 +173,7 @@ def test_angles_of_a_view():
 
 
 def test_what_is_looked_at():
-    def distance(text):
+    def distance(text: str):
         return plot.things_distance(m3dc.compile(text).ir)
 
     view = "SCENE { VIEW { FROM <10,0,2> TO <%s,0,2> } } "

@@ -1,5 +1,7 @@
 """The m3d-plot command: figures and tables of scenes."""
 
+from __future__ import annotations
+
 import csv
 import io
 import os
@@ -8,14 +10,14 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO
 import pytest
 from exit_status import exit_status
+from pictures import stored
 from scene_builder import merman
 
 from m3d_render import plot
 from m3d_render.plot.cli import main
-from m3dc.ir import m3ir
+from m3dc.ir import SceneIR, m3ir
 
 SIGNATURES = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG"}
 
@@ -26,24 +28,24 @@ def ir():
 
 
 @pytest.fixture
-def compiled(ir, tmp_path, monkeypatch):
+def compiled(ir: SceneIR, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     m3ir.write(ir, tmp_path / "merman.m3ir")
     monkeypatch.chdir(tmp_path)
     return "merman.m3ir"
 
 
-def table(text):
+def table(text: str):
     names, *rows = csv.reader(io.StringIO(text))
     return {name: [row[i] for row in rows] for i, name in enumerate(names)}
 
 
-def numbers(column):
+def numbers(column: list[str]):
     return np.array([float(value) if value else np.nan for value in column])
 
 
 @pytest.mark.parametrize("suffix", SIGNATURES)
 @pytest.mark.parametrize("figure", ["profile", "rays", "transfer"])
-def test_every_figure_in_every_format_twice_the_same(compiled, figure, suffix):
+def test_every_figure_in_every_format_twice_the_same(compiled: str, figure: str, suffix: str):
     for name in ("first", "second"):
         assert main([figure, compiled, "-o", name + suffix, "--size", "12x8"]) == 0
     first, second = (Path(name + suffix).read_bytes() for name in ("first", "second"))
@@ -51,15 +53,15 @@ def test_every_figure_in_every_format_twice_the_same(compiled, figure, suffix):
     assert first == second
 
 
-def test_a_picture_has_the_size_that_was_asked_for(compiled):
+def test_a_picture_has_the_size_that_was_asked_for(compiled: str):
     assert main(["rays", compiled, "-o", "fan.png", "--size", "12x8"]) == 0
-    pixels = OpenImageIO.ImageBuf("fan.png").get_pixels(OpenImageIO.UINT8)
+    pixels = stored(Path("fan.png"))
     np.testing.assert_allclose(pixels.shape[:2], [8 / 2.54 * 110, 12 / 2.54 * 110], atol=1)
     assert pixels.min() < 40
     assert pixels.max() == 255
 
 
-def test_the_table_of_a_profile(compiled, ir, capsys):
+def test_the_table_of_a_profile(compiled: str, ir: SceneIR, capsys: pytest.CaptureFixture[str]):
     assert main(["profile", compiled, "--csv", "-"]) == 0
     found, profile = table(capsys.readouterr().out), plot.temperature_profile(ir)
     np.testing.assert_allclose(numbers(found["bottom_m"])[1:], numbers(found["top_m"])[:-1])
@@ -70,7 +72,7 @@ def test_the_table_of_a_profile(compiled, ir, capsys):
     ]  # fmt: skip
 
 
-def test_the_table_of_a_fan(compiled, capsys):
+def test_the_table_of_a_fan(compiled: str, capsys: pytest.CaptureFixture[str]):
     assert main(["rays", compiled, "--csv=-", "--angles=-4:7:0.5", "--reach=1500"]) == 0
     found = table(capsys.readouterr().out)
     kinds, ends = np.array(found["kind"]), np.array(found["end"])
@@ -87,7 +89,7 @@ def test_the_table_of_a_fan(compiled, capsys):
     assert (z[wall].min(), z[wall].max()) == (0, 1)
 
 
-def test_the_table_of_a_transfer_characteristic(compiled, ir, tmp_path):
+def test_the_table_of_a_transfer_characteristic(compiled: str, ir: SceneIR, tmp_path: Path):
     arguments = ["transfer", compiled, "--csv", "t.csv", "--at=1000,1400", "--angles=-4:8:0.1", "-o", "t.svg"]
     assert main(arguments) == 0
     found = table(Path("t.csv").read_text())
@@ -100,7 +102,7 @@ def test_the_table_of_a_transfer_characteristic(compiled, ir, tmp_path):
     assert set(np.array(found["end"])[~missed]) == {""}
 
 
-def test_zones_are_told_apart_without_colour(compiled):
+def test_zones_are_told_apart_without_colour(compiled: str):
     assert main(["transfer", compiled, "--at=1400", "-o", "t.svg"]) == 0
     text = Path("t.svg").read_text()
     assert "clip-path" in text
@@ -125,19 +127,21 @@ def test_zones_are_told_apart_without_colour(compiled):
         (["profile", "none.m3d", "-o", "p.svg"], 2, "No such file"),
     ],
 )
-def test_what_cannot_be_done_is_said(compiled, capsys, arguments, status, says):
+def test_what_cannot_be_done_is_said(
+    compiled: str, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str
+):
     Path("straight.m3d").write_text("SOLID { SPHERE { } }")
     assert exit_status(main, arguments) == status
     assert says in capsys.readouterr().err
     assert not list(Path().glob("*.svg"))
 
 
-def test_without_matplotlib_the_way_to_it_is_said(compiled, tmp_path):
+def test_without_matplotlib_the_way_to_it_is_said(compiled: str, tmp_path: Path):
     # A module of its name that cannot be imported stands before the real one.
     (tmp_path / "matplotlib.py").write_text("raise ImportError")
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
 
-    def run(*arguments):
+    def run(*arguments: str):
         command = [sys.executable, "-m", "m3d_render.plot.cli", *arguments]
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=60)
 

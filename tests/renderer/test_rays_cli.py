@@ -1,22 +1,26 @@
 """The m3d-rays command."""
 
+from __future__ import annotations
+
 import csv
 import io
 import math
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from scene_builder import SceneBuilder, merman
 
 from m3d_render.optics import trace_crossings, trace_paths
-from m3dc.ir import m3ir
+from m3dc.ir import SceneIR, m3ir
 
 
-def command(*arguments, **options):
-    options = {"capture_output": True, "text": True, "timeout": 60, **options}
-    return subprocess.run([sys.executable, "-m", "m3d_render.rays_cli", *map(str, arguments)], check=False, **options)
+def command(*arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
+    words = [sys.executable, "-m", "m3d_render.rays_cli", *map(str, arguments)]
+    return subprocess.run(words, check=False, capture_output=True, text=True, timeout=60, **options)
 
 
 @pytest.fixture(scope="module")
@@ -25,18 +29,18 @@ def ir():
 
 
 @pytest.fixture
-def compiled(ir, tmp_path):
+def compiled(ir: SceneIR, tmp_path: Path):
     m3ir.write(ir, tmp_path / "merman.m3ir")
     return tmp_path / "merman.m3ir"
 
 
-def rows(text):
+def rows(text: str):
     table = list(csv.reader(io.StringIO(text)))
     assert table[0] == ["angle_arcmin", "r_m", "z_m", "end"]
     return [(float(angle), float(r), float(z), end) for angle, r, z, end in table[1:]]
 
 
-def test_at_given_distances(ir, compiled):
+def test_at_given_distances(ir: SceneIR, compiled: Path):
     done = command(compiled, "--angles=-2:2:0.5", "--at=100,700,1400,50000")
     assert (done.returncode, done.stderr) == (0, "")
     table = rows(done.stdout)
@@ -51,7 +55,7 @@ def test_at_given_distances(ir, compiled):
         np.testing.assert_allclose(own[-1][1:3], paths.end_points[i], atol=1e-6)
 
 
-def test_at_every_crossing(ir, compiled, tmp_path):
+def test_at_every_crossing(ir: SceneIR, compiled: Path, tmp_path: Path):
     table_file = tmp_path / "a.csv"
     done = command(compiled, "--angles=3:-3:-1.5", f"--csv={table_file}")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -64,8 +68,8 @@ def test_at_every_crossing(ir, compiled, tmp_path):
         assert own[-1][3] in {"ground", "top", "range", "segments"}
 
 
-def test_every_way_to_end(tmp_path):
-    def ends(angle, **mirage):
+def test_every_way_to_end(tmp_path: Path):
+    def ends(angle: float, **mirage: Any):
         scene = SceneBuilder((0, 0, 2), (1, 0, 2)).mirage([(0, 10), (1, 10.1), (3, 12), (5, 10)], **mirage)
         m3ir.write(scene.build(), tmp_path / "a.m3ir")
         done = command(tmp_path / "a.m3ir", f"--angles={angle}:{angle}:1")
@@ -92,14 +96,14 @@ def test_every_way_to_end(tmp_path):
         ([], 2, "--angles"),
     ],
 )
-def test_what_cannot_be_done_is_said(compiled, tmp_path, arguments, status, says):
+def test_what_cannot_be_done_is_said(compiled: Path, tmp_path: Path, arguments: list[str], status: int, says: str):
     done = command(compiled, *arguments, cwd=tmp_path)
     assert done.returncode == status
     assert says in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_scene_without_a_mirage_is_status_1(tmp_path):
+def test_a_scene_without_a_mirage_is_status_1(tmp_path: Path):
     (tmp_path / "a.m3d").write_text("SOLID { SPHERE { } }")
     done = command(tmp_path / "a.m3d", "--angles=0:1:1")
     assert done.returncode == 1

@@ -1,30 +1,37 @@
 """What pictures show, on scenes whose answer is known."""
 
+from __future__ import annotations
+
 import copy
 import itertools
 import math
 import threading
+from collections.abc import Callable
+from typing import Any, Unpack
 
 import numpy as np
 import pytest
+from array_types import Floats
 from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, from_sun, merman, unit
 
 import m3d_render
-from m3dc.ir import TABLES, Ambient, Haze, LightKind, TextureKind
+from m3d_render import Picture, RenderOptions
+from m3d_render.picture import to_bytes
+from m3dc.ir import TABLES, Ambient, Haze, LightKind, SceneIR, TextureKind, Triple
 
 EARTH, EPSILON, BETA, GRAVITY = 6_371_000.0, 226e-6, 3.48e-3, 9.80665
 
 
-def render(scene, **options):
+def render(scene: SceneBuilder, **options: Unpack[RenderOptions]) -> Picture:
     return m3d_render.render(scene.build(), **options)
 
 
-def bright(scene):
+def bright(scene: SceneBuilder):
     """Full ambient light of white: what is lit by it alone shows its colour."""
     return scene.set(ambient=Ambient(1.0, WHITE, 0, 0))
 
 
-def pixel_directions(scene):
+def pixel_directions(scene: SceneBuilder):
     """Directions of all pixels, by the formulas of section 3.2."""
     view = scene.scene.view
     u = np.arange(view.width) / (view.width - 1)
@@ -53,7 +60,7 @@ def test_a_spheres_silhouette_is_where_geometry_says():
 
 
 @pytest.mark.parametrize("up", [1, -1])
-def test_looking_straight_up_and_down(up):
+def test_looking_straight_up_and_down(up: int):
     scene = bright(SceneBuilder((0, 0, 0), (0, 0, up), 40, 11, 11))
     scene.sphere((up * 2.5, 0, 10 * up), 0.5, scene.solid(color=(1, 0, 0), ambient=1.0))
     scene.sphere((0, 2.5, 10 * up), 0.5, scene.solid(color=(0, 1, 0), ambient=1.0))
@@ -102,7 +109,7 @@ def test_no_ray_slips_between_facets():
     n = 24
     grid = [(0.0, -4 + 8 * i / n, -4 + 8 * j / n) for i in range(n + 1) for j in range(n + 1)]
     vertices = np.array(grid) + rng.uniform(-0.1, 0.1, (len(grid), 3))
-    facets = []
+    facets: list[tuple[int, int, int]] = []
     for i in range(n):
         for j in range(n):
             a, b, c, d = i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1
@@ -118,7 +125,7 @@ def test_a_pixel_through_corners_and_edges_hits_once():
     # 33x33 pixels of a view along -X meet the grid's lines and corners exactly.
     scene = bright(SceneBuilder((10, 0, 0), (0, 0, 0), 45, 33, 33))
     vertices = [(0, y, z) for y in range(-4, 5) for z in range(-4, 5)]
-    facets = []
+    facets: list[tuple[int, int, int]] = []
     for i in range(8):
         for j in range(8):
             a = 9 * i + j
@@ -140,7 +147,7 @@ def test_furnace():
     np.testing.assert_allclose(render(scene), 0.7, atol=1e-7)
 
 
-def lit_plate(light, shadows=False, **surface):
+def lit_plate(light: dict[str, Any], shadows: bool = False, **surface: Any):
     """A plate in the YZ plane seen from +X; the middle pixel of 3x3 shows its origin."""
     scene = SceneBuilder((10, 0, 0), (0, 0, 0), 20, 3, 3).set(ambient=Ambient(0.0, WHITE, 0, 0), shadows=shadows)
     scene.light(**light)
@@ -148,7 +155,7 @@ def lit_plate(light, shadows=False, **surface):
     return scene
 
 
-def middle(picture):
+def middle(picture: Picture):
     return picture[picture.shape[0] // 2, picture.shape[1] // 2]
 
 
@@ -174,7 +181,7 @@ def test_lambert_and_both_sides():
         ({"direction": (1.0, 0.0, 0.0)}, 1.0),
     ],
 )
-def test_point_lights(columns, expected):
+def test_point_lights(columns: dict[str, Any], expected: float):
     light = {"kind": LightKind.POINT, "position": (4.0, 0.0, 0.0), **columns}
     np.testing.assert_allclose(middle(render(lit_plate(light))), expected, rtol=1e-6)
 
@@ -194,7 +201,7 @@ def test_highlight_at_normal_incidence():
 def test_shadows_by_solids_alone_and_only_if_asked():
     light = {"direction": (-1.0, 0.0, 0.0)}
 
-    def scene(shadows=True):
+    def scene(shadows: bool = True):
         made = lit_plate(light, shadows=shadows)
         # Beside the line of sight, in the light of the middle.
         made.rows["lights"][0]["direction"] = tuple(unit((-1, 0.5, 0)))
@@ -245,7 +252,7 @@ def test_visible_lights_show_their_colour_unshaded():
 # Mirrors
 
 
-def mirror_facing_a_wall(depth):
+def mirror_facing_a_wall(depth: int):
     """The eye looks at a mirror, which shows a wall behind the eye."""
     scene = bright(SceneBuilder((5, 0, 0), (0, 0, 0), 10, 3, 3)).set(depth=depth)
     mirror = scene.solid(specular=1.0, hard=0.5, ambient=0.0, rough=0.0)
@@ -270,7 +277,7 @@ def test_two_mirrors_add_a_geometric_series():
     np.testing.assert_allclose(middle(render(scene)), expected, rtol=1e-6)
 
 
-def cie_sky(direction, sun, intensity, zenith, horizon, overcast):
+def cie_sky(direction: Floats, sun: Floats, intensity: float, zenith: Triple, horizon: Triple, overcast: float):
     """The sky's colour toward unit vectors, written out from the CIE formulas."""
     sine = np.abs(direction[..., 2])
     up = direction * [1, 1, 0] + np.stack([0 * sine, 0 * sine, sine], -1)
@@ -323,7 +330,7 @@ def test_haze_along_a_curve_is_as_along_the_straight_ray():
     np.testing.assert_allclose(render(scene), render(scene, straight=True), atol=1e-5)
 
 
-def zero_curvature_profile(heights, temperature=15.0):
+def zero_curvature_profile(heights: list[float], temperature: float = 15.0):
     """Temperatures for which every layer's curvature at its middle is the earth's: solved layer by layer."""
     profile = [(heights[0], temperature)]
     p, t = 101_325.0, temperature + 273.15
@@ -332,8 +339,9 @@ def zero_curvature_profile(heights, temperature=15.0):
         for _ in range(60):
             height = (high - low) / 2
             middle_t = t + gradient * height
-            exponent = -BETA * GRAVITY / gradient if gradient else None
-            middle_p = p * ((middle_t / t) ** exponent if gradient else math.exp(-BETA * GRAVITY * height / t))
+            middle_p = p * (
+                (middle_t / t) ** (-BETA * GRAVITY / gradient) if gradient else math.exp(-BETA * GRAVITY * height / t)
+            )
             eta = 1 + EPSILON * BETA * middle_p / middle_t
             gradient = eta * middle_t**2 / (EPSILON * BETA * middle_p * EARTH) - BETA * GRAVITY
         top = t + gradient * (high - low)
@@ -349,11 +357,10 @@ def test_without_curvature_a_mirage_is_the_straight_picture():
     scene.mirage(zero_curvature_profile([0.0, 1.0, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0]), segments=300)
     ir = scene.build()
     bent, straight = m3d_render.render(ir), m3d_render.render(ir, straight=True)
-    to_bytes = m3d_render.picture.to_bytes
     np.testing.assert_array_equal(to_bytes(bent), to_bytes(straight))
 
 
-def seen_through_the_merman_air(make):
+def seen_through_the_merman_air(make: Callable[[SceneBuilder], object]):
     """Pictures, straight and bent, of shapes at 1.4 km in the merman scene's view; they show their own colour."""
     scene = bright(SceneBuilder((1, 0, 2.1), (0, 0, 2.1001), 1.5, 320, 200, aspect=1.2))
     scene.mirage(MERMAN_PROFILE, segments=300)
@@ -371,7 +378,7 @@ def test_the_ground_rises_to_a_wall():
 
 
 def test_the_rectangle_is_stretched_and_its_middle_inverted():
-    def rectangle(scene):
+    def rectangle(scene: SceneBuilder):
         blend = (TextureKind.VBLEND, {"ranges": [(0.0, 1.0, (0.1, 0, 0), (1, 0, 0))]})
         solid = scene.solid(ambient=1.0, textures=[blend])
         scene.rectangle(((-1400, -2, 1), (-1400, -2, 0), (-1400, 2, 0)), solid)
@@ -386,7 +393,7 @@ def test_the_rectangle_is_stretched_and_its_middle_inverted():
 
 
 def test_the_lower_right_sphere_is_a_mushroom():
-    def sphere(scene):
+    def sphere(scene: SceneBuilder):
         scene.sphere((-1400, 7, 2), 2, scene.solid(ambient=1.0))
 
     straight, bent = (picture[..., 0] for picture in seen_through_the_merman_air(sphere))
@@ -423,7 +430,7 @@ def test_checker_in_the_world_and_local():
     moved = np.eye(4)
     moved[3, 1] = -1.0  # the inverse of an object moved along +Y
 
-    def plate(**columns):
+    def plate(**columns: Any):
         scene = bright(SceneBuilder((10, 0.25, 0.25), (0, 0.25, 0.25), 20, 3, 3))
         solid = scene.solid(
             color=(1, 0, 0), ambient=1.0, textures=[(TextureKind.CHECKER, {"color": (0, 0, 1), **columns})]
@@ -440,7 +447,7 @@ def test_checker_in_the_world_and_local():
 def test_blends_run_along_u_and_v():
     red, blue = (1, 0, 0), (0, 0, 1)
 
-    def rectangle(kind, row, column, **columns):
+    def rectangle(kind: TextureKind, row: int, column: int, **columns: Any):
         scene = bright(SceneBuilder((10, 0, 0), (0, 0, 0), 2 * math.degrees(math.atan(0.1)), 5, 5))
         texture = (kind, {"color": blue, **columns})
         solid = scene.solid(color=red, ambient=1.0, textures=[texture])
@@ -497,14 +504,15 @@ def test_log_scale():
 def test_width_and_height():
     assert render(SceneBuilder(), width=7).shape == (32, 7, 3)
     assert render(SceneBuilder(), height=1, width=1).shape == (1, 1, 3)
-    for wrong in ({"width": 0}, {"height": 65_536}, {"depth": 0}, {"threads": 0}):
+    impossible: list[RenderOptions] = [{"width": 0}, {"height": 65_536}, {"depth": 0}, {"threads": 0}]
+    for wrong in impossible:
         with pytest.raises(m3d_render.SceneError):
             render(SceneBuilder(), **wrong)
 
 
 def test_progress_and_cancel():
     ir = merman(1600, 1000).build()
-    seen = []
+    seen: list[tuple[int, int]] = []
     m3d_render.render(ir, width=80, height=50, progress=lambda done, total: seen.append((done, total)))
     assert seen[-1] == (50, 50)
     assert seen == sorted(seen)
@@ -519,7 +527,7 @@ def test_progress_and_cancel():
 # Input that makes no sense
 
 
-def garbage(value):
+def garbage(value: float):
     """Something of every kind with a value among its numbers."""
     scene = merman(24, 16)
     owner = scene.solid(color=(1, 1, 1))
@@ -537,7 +545,7 @@ def garbage(value):
 
 
 @pytest.mark.parametrize("value", [1e20, -1e38, 1e75, 5e-324, 0.0])
-def test_garbage_geometry_is_survived(value):
+def test_garbage_geometry_is_survived(value: float):
     for straight in (True, False):
         picture = render(garbage(value), straight=straight, shadows=True)
         assert np.all((picture >= 0) & (picture <= 1))
@@ -545,14 +553,14 @@ def test_garbage_geometry_is_survived(value):
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e76, 1e300])
 @pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
-def test_geometry_beyond_arithmetic_is_refused(value):
+def test_geometry_beyond_arithmetic_is_refused(value: float):
     """In words, where it stands: left out of the picture nobody would miss it."""
     with pytest.raises(m3d_render.SceneError, match="finite" if not math.isfinite(value) else "up to 1e75"):
         render(garbage(value))
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e300])
-def test_views_beyond_arithmetic_are_refused(value):
+def test_views_beyond_arithmetic_are_refused(value: float):
     scene = merman(8, 8)
     for name in ("right", "normal"):
         broken = scene.scene.view._replace(**{name: (value, 0.0, 0.0)})
@@ -560,7 +568,7 @@ def test_views_beyond_arithmetic_are_refused(value):
             render(scene.set(view=broken))
 
 
-def numbers_of(ir):
+def numbers_of(ir: SceneIR):
     """Every column of numbers that has a row."""
     return [
         (table, column)
@@ -571,7 +579,7 @@ def numbers_of(ir):
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_any_number_that_is_none_is_refused_or_not_used(value):
+def test_any_number_that_is_none_is_refused_or_not_used(value: float):
     """What the renderer reads is checked when it is read."""
     unused = {"normal", "transform"}
     ir = merman(6, 4).build()

@@ -8,13 +8,18 @@ compared with its formula.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import cache
+from typing import Any, NotRequired, TypedDict
 
 import numpy as np
 import pytest
+from array_types import Floats
 
 import m3d_render
 import m3dc
+from m3d_render import Picture
+from m3dc.ir import SceneIR, Triple
 from tree_sitter_m3d.table import LANGUAGE
 
 BLACK_TO_WHITE = "COLOR < 1, 1, 1 >"
@@ -30,13 +35,22 @@ OCTAVES = 6
 SHIFT = np.array([0.37, 0.71, 0.53])
 
 
-def compiled(text: str):
+def compiled(text: str) -> SceneIR:
     result = m3dc.compile(text)
     assert result.ok, result.diagnostics
     return result.ir
 
 
-def picture(texture: str, *, shape=PLATE, view=OVERHEAD, color="0, 0, 0", light="", solid="", more="") -> np.ndarray:
+def picture(
+    texture: str,
+    *,
+    shape: str = PLATE,
+    view: str = OVERHEAD,
+    color: str = "0, 0, 0",
+    light: str = "",
+    solid: str = "",
+    more: str = "",
+) -> Picture:
     """The picture of a shape with these textures: under even light, or under the one given alone."""
     ambient = 0 if light else 1
     return m3d_render.render(
@@ -56,12 +70,12 @@ def picture(texture: str, *, shape=PLATE, view=OVERHEAD, color="0, 0, 0", light=
     )
 
 
-def value(texture: str, **scene) -> np.ndarray:
+def value(texture: str, **scene: str) -> Floats:
     """The texture's value t: how much of white there is."""
     return picture(texture, **scene)[..., 0].astype(float)
 
 
-def rays(view=OVERHEAD) -> tuple[np.ndarray, np.ndarray]:
+def rays(view: str = OVERHEAD) -> tuple[np.ndarray, np.ndarray]:
     """The eye, and the directions of the pixels (thesis 3.2)."""
     text = f"SCENE {{ VIEW {{ {view} FOV {FOV} WIDTH {SIZE} HEIGHT {SIZE} }} }} SOLID {{ {BALL} }}"
     said = compiled(text).scene.view
@@ -75,13 +89,13 @@ def rays(view=OVERHEAD) -> tuple[np.ndarray, np.ndarray]:
     return np.array(said.eye), directions / np.linalg.norm(directions, axis=-1, keepdims=True)
 
 
-def on_plate(height=0.37) -> np.ndarray:
+def on_plate(height: float = 0.37) -> Floats:
     """Where the pixels' rays meet the plate."""
     eye, directions = rays()
     return eye + directions * ((height - eye[2]) / directions[..., 2:])
 
 
-def on_ball(view=OVERHEAD, radius=3.0) -> np.ndarray:
+def on_ball(view: str = OVERHEAD, radius: float = 3.0) -> Floats:
     """Where the pixels' rays meet the ball; NaN beside it."""
     eye, directions = rays(view)
     along = -(directions @ eye)
@@ -90,14 +104,19 @@ def on_ball(view=OVERHEAD, radius=3.0) -> np.ndarray:
     return eye + directions * (along - half)[..., None]
 
 
-def transform(scale=(1.0, 1.0, 1.0), move=(0.0, 0.0, 0.0)) -> str:
+def transform(scale: Iterable[float] = (1.0, 1.0, 1.0), move: Iterable[float] = (0.0, 0.0, 0.0)) -> str:
     """A TRANSFORM whose inverse takes a point P to (P - move) / scale."""
     vectors = ["< " + ", ".join(f"{x:.17g}" for x in vector) + " >" for vector in (scale, move)]
     return f"TRANSFORM {{ SCALE {vectors[0]} TRANSLATE {vectors[1]} }}"
 
 
 @cache
-def noise(factors=(1.0, 1.0, 1.0), shift=(0.0, 0.0, 0.0), shape=PLATE, view=OVERHEAD) -> np.ndarray:
+def noise(
+    factors: tuple[float, ...] = (1.0, 1.0, 1.0),
+    shift: tuple[float, ...] = (0.0, 0.0, 0.0),
+    shape: str = PLATE,
+    view: str = OVERHEAD,
+) -> Floats:
     """The noise at `factors` times the pixels' points plus `shift`, by inverting the cubic of SPOTTED."""
     scale = 1 / np.array(factors)
     t = value(f"SPOTTED {{ {BLACK_TO_WHITE} {transform(scale, -np.array(shift) * scale)} }}", shape=shape, view=view)
@@ -105,29 +124,29 @@ def noise(factors=(1.0, 1.0, 1.0), shift=(0.0, 0.0, 0.0), shape=PLATE, view=OVER
     return 0.5 - np.sin(np.arcsin(1 - 2 * t) / 3)
 
 
-def octave(i: int, factors=(1.0, 1.0, 1.0), **scene) -> np.ndarray:
+def octave(i: int, factors: tuple[float, ...] = (1.0, 1.0, 1.0), **scene: str) -> Floats:
     """Signed noise of the i-th octave."""
     return 2 * noise(tuple(2.0**i * np.array(factors)), tuple(i * SHIFT), **scene) - 1
 
 
-def turbulence(factors=(1.0, 1.0, 1.0)) -> np.ndarray:
+def turbulence(factors: tuple[float, ...] = (1.0, 1.0, 1.0)) -> Floats:
     return np.sum([abs(octave(i, factors)) / 2**i for i in range(OCTAVES)], axis=0)
 
 
-def fractal(factors=(1.0, 1.0, 1.0), **scene) -> np.ndarray:
+def fractal(factors: tuple[float, ...] = (1.0, 1.0, 1.0), **scene: str) -> Floats:
     octaves = np.sum([octave(i, factors, **scene) / 2**i for i in range(OCTAVES)], axis=0)
     return octaves / (2 - 2 / 2**OCTAVES)
 
 
-def squeezed(t: np.ndarray, amount: float) -> np.ndarray:
+def squeezed(t: Floats, amount: float) -> Floats:
     return np.maximum(0, 1 - (1 - t) * (1 + amount))
 
 
-def cubic(s: np.ndarray) -> np.ndarray:
+def cubic(s: Floats) -> Floats:
     return s * s * (3 - 2 * s)
 
 
-def close(found: np.ndarray, expected: np.ndarray, tolerance=2e-4) -> None:
+def close(found: Floats, expected: Floats, tolerance: float = 2e-4) -> None:
     assert np.ptp(expected) > 0.2, "nothing is to be seen"
     np.testing.assert_allclose(found, expected, atol=tolerance)
 
@@ -159,8 +178,8 @@ def test_lattice_values_are_those_of_the_table():
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
-def test_the_noise_repeats_after_4096(axis):
-    def moved(by):
+def test_the_noise_repeats_after_4096(axis: int):
+    def moved(by: float):
         return value(f"SPOTTED {{ {BLACK_TO_WHITE} {transform(move=by * np.eye(3)[axis])} }}")
 
     np.testing.assert_allclose(moved(4096), moved(0), atol=1e-6)
@@ -172,7 +191,7 @@ def test_the_noise_repeats_after_4096(axis):
 
 
 @pytest.mark.parametrize(("amount", "squeeze"), [(0, 0), (0, 2), (0.7, 0), (1.5, 0.5)])
-def test_wood(amount, squeeze):
+def test_wood(amount: float, squeeze: float):
     t = value(f"WOOD {{ {BLACK_TO_WHITE} TURBULENCE {amount} SQUEEZE {squeeze} }}")
     points = on_plate()
     radius = np.hypot(points[..., 0], points[..., 1]) + amount / 2 * (fractal((1, 1, 1 / 6)) if amount else 0)
@@ -183,7 +202,7 @@ def test_wood(amount, squeeze):
 
 
 @pytest.mark.parametrize(("amount", "squeeze"), [(0, 0), (0, 2), (0.3, 0), (1, 1)])
-def test_marble(amount, squeeze):
+def test_marble(amount: float, squeeze: float):
     t = value(f"MARBLE {{ {BLACK_TO_WHITE} TURBULENCE {amount} SQUEEZE {squeeze} }}")
     y = on_plate()[..., 1] + amount * (turbulence() if amount else 0)
     expected = 0.5 - 0.5 * np.cos(np.pi * squeezed(1 - 2 * abs(y - np.rint(y)), squeeze))
@@ -191,13 +210,13 @@ def test_marble(amount, squeeze):
 
 
 @pytest.mark.parametrize("scale", [0.4, 1.7, 3])
-def test_spotted(scale):
+def test_spotted(scale: float):
     t = value(f"SPOTTED {{ {BLACK_TO_WHITE} SCALE {scale} }}")
     close(t, cubic(np.clip(scale * noise(), 0, 1)), 1e-3)
 
 
 @pytest.mark.parametrize("amount", [0.5, 1, 3])
-def test_granite(amount):
+def test_granite(amount: float):
     t = value(f"GRANITE {{ {BLACK_TO_WHITE} TURBULENCE {amount} }}")
     close(t, np.clip(amount * turbulence((4, 4, 4)) / 2, 0, 1), 2e-3)
 
@@ -207,7 +226,7 @@ def test_granite_without_turbulence_is_not_there():
 
 
 @pytest.mark.parametrize(("amount", "squeeze"), [(0, 0), (1, 0), (0.5, 1.5)])
-def test_clouds(amount, squeeze):
+def test_clouds(amount: float, squeeze: float):
     t = value(f"CLOUDS {{ {BLACK_TO_WHITE} TURBULENCE {amount} SQUEEZE {squeeze} }}")
     flat = (1, 1, 3)
     cover = 0.5 + octave(0, flat) + amount * sum(octave(i, flat) / 2**i for i in range(1, OCTAVES))
@@ -222,7 +241,7 @@ def test_clouds_are_flat():
     assert 2 < up / across < 4
 
 
-def snow(elevation=0.7, slope=90.0, scale=0.0, amount=0.0, more="") -> str:
+def snow(elevation: float = 0.7, slope: float = 90.0, scale: float = 0.0, amount: float = 0.0, more: str = "") -> str:
     return f"SNOW {{ ELEVATION {elevation} SLOPE {slope} SCALE {scale} TURBULENCE {amount} {more} }}"
 
 
@@ -231,7 +250,7 @@ def snow(elevation=0.7, slope=90.0, scale=0.0, amount=0.0, more="") -> str:
     [(0.7, 90, 0, 0), (0.55, 30, 0, 0), (0.9, 70, 0.4, 0), (0.7, 80, 0.1, 0.5)],
 )
 @pytest.mark.parametrize("view", [OVERHEAD, ASIDE])
-def test_snow(elevation, slope, scale, amount, view):
+def test_snow(elevation: float, slope: float, scale: float, amount: float, view: str):
     t = value(snow(elevation, slope, scale, amount), shape=BALL, view=view)
     points = on_ball(view)
     normal_z = points[..., 2] / 3
@@ -274,7 +293,7 @@ def test_snow_keeps_off_bumps_before_it():
 
 
 @pytest.mark.parametrize("amount", [0, 0.5])
-def test_gradient(amount):
+def test_gradient(amount: float):
     t = value(f"GRADIENT {{ {BLACK_TO_WHITE} TURBULENCE {amount} }}", shape=BALL, view=ASIDE)
     points = on_ball(ASIDE)
     expected = (points[..., 2] + 3) / 6
@@ -302,24 +321,26 @@ def test_gradient_has_the_colors_of_its_ranges():
 LIGHTS = np.array([(0.0, 0.0, 1.0), (0.5, 0.0, 0.9), (0.0, 0.5, 0.9)])
 
 
-def normals(texture: str, **scene) -> np.ndarray:
+def normals(texture: str, **scene: str) -> Floats:
     """The normals, by the cosines under three lights. No normal may be turned away from one of them."""
-    shown = []
+    shown: list[Floats] = []
     for direction in LIGHTS:
         toward = ", ".join(str(-x) for x in direction)
         source = f"LIGHT {{ SOURCE {{ INFINITE DIRECTION < {toward} > }} }}"
         shown.append(picture(texture, light=source, color="1, 1, 1", **scene)[..., 0].astype(float))
-    units = LIGHTS / np.linalg.norm(LIGHTS, axis=1, keepdims=True)
+    units: Floats = LIGHTS / np.linalg.norm(LIGHTS, axis=1, keepdims=True)
     return np.stack(shown, axis=-1) @ np.linalg.inv(units).T
 
 
-def raised(gradient: np.ndarray) -> np.ndarray:
+def raised(gradient: Floats) -> Floats:
     """Normals of a horizontal plate raised by a height of this gradient."""
     normal = np.stack([-gradient[..., 0], -gradient[..., 1], np.ones(gradient.shape[:-1])], axis=-1)
     return normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
-def wave_gradient(points, center, amplitude, freq, phase=0.0, damp=0.0):
+def wave_gradient(
+    points: Floats, center: Triple, amplitude: float, freq: float, phase: float = 0.0, damp: float = 0.0
+) -> Floats:
     """Of A e^(-damp d) sin d, d = |P - C| freq + phase."""
     away = points - np.array(center)
     r = np.linalg.norm(away, axis=-1, keepdims=True)
@@ -327,24 +348,36 @@ def wave_gradient(points, center, amplitude, freq, phase=0.0, damp=0.0):
     return amplitude * np.exp(-damp * d) * (np.cos(d) - damp * np.sin(d)) * freq * away / r
 
 
-WAVES = [
+class Wave(TypedDict):
+    """What a WAVE says."""
+
+    center: Triple
+    amplitude: float
+    freq: float
+    phase: NotRequired[float]
+    damp: NotRequired[float]
+
+
+WAVES: list[Wave] = [
     {"center": (1.0, -2.0, 0.37), "amplitude": 0.1, "freq": 3.0},
     {"center": (0.0, 0.0, 5.0), "amplitude": 0.15, "freq": 2.0, "phase": 1.3},
     {"center": (-3.0, 1.0, 0.0), "amplitude": 0.3, "freq": 1.5, "phase": 0.4, "damp": 0.1},
 ]
 
 
-def wave(center, amplitude, freq, phase=0.0, damp=0.0) -> str:
+def wave(center: Triple, amplitude: float, freq: float, phase: float = 0.0, damp: float = 0.0) -> str:
     x, y, z = center
     return f"WAVE {{ CENTER < {x}, {y}, {z} > AMPLITUDE {amplitude} FREQ {freq} PHASE {phase} DAMP {damp} }}"
 
 
 @pytest.mark.parametrize("chosen", [WAVES[:1], WAVES[1:2], WAVES[2:], WAVES])
 @pytest.mark.parametrize("keyword", ["RIPPLES", "WAVES"])
-def test_ripples_and_waves_are_the_derivative_of_their_height(chosen, keyword):
+def test_ripples_and_waves_are_the_derivative_of_their_height(chosen: list[Wave], keyword: str):
     found = normals(f"{keyword} {{ {' '.join(wave(**source) for source in chosen)} }}")
     factor = 1.0 if keyword == "RIPPLES" else None
-    gradient = sum(wave_gradient(on_plate(), **source) * (factor or 1 / source["freq"]) for source in chosen)
+    gradient = sum(
+        (wave_gradient(on_plate(), **source) * (factor or 1 / source["freq"]) for source in chosen), np.zeros(3)
+    )
     assert np.linalg.norm(gradient, axis=-1).max() > 0.05
     np.testing.assert_allclose(found, raised(gradient), atol=1e-5)
 
@@ -375,7 +408,7 @@ def test_a_ball_ripples_all_around():
     np.testing.assert_allclose(found[top], expected[top], atol=1e-5)
 
 
-def bump_height(scale: float, squeeze: float, amount: float, dx: float, dy: float) -> np.ndarray:
+def bump_height(scale: float, squeeze: float, amount: float, dx: float, dy: float) -> Floats:
     """h = SCALE t² / (1 + SQUEEZE), at the pixels' points moved a little."""
     n = noise(shift=(dx, dy, 0))
     for i in range(1, 4):
@@ -385,7 +418,7 @@ def bump_height(scale: float, squeeze: float, amount: float, dx: float, dy: floa
 
 
 @pytest.mark.parametrize(("scale", "squeeze", "amount"), [(0.3, 0, 0), (0.2, 0, 1), (0.2, 1, 0.5)])
-def test_bumps_are_the_derivative_of_their_height(scale, squeeze, amount):
+def test_bumps_are_the_derivative_of_their_height(scale: float, squeeze: float, amount: float):
     found = normals(f"BUMPS {{ SCALE {scale} SQUEEZE {squeeze} TURBULENCE {amount} }}")
     step = 5e-3
     along_x = bump_height(scale, squeeze, amount, step, 0) - bump_height(scale, squeeze, amount, -step, 0)
@@ -428,7 +461,7 @@ COLORED = ["WOOD", "MARBLE", "SPOTTED", "GRANITE", "CLOUDS"]
 
 
 @pytest.mark.parametrize("keyword", COLORED)
-def test_colors_are_looked_up_by_the_value_and_gaps_keep_the_surface(keyword):
+def test_colors_are_looked_up_by_the_value_and_gaps_keep_the_surface(keyword: str):
     t = value(f"{keyword} {{ {BLACK_TO_WHITE} }}")
     ranges = "0 0.2 < 1, 0, 0 > < 0, 1, 0 > 0.4 0.6 < 0, 0, 1 > < 0, 1, 1 >"
     shown = picture(f"{keyword} {{ COLORS {{ {ranges} }} }}", color="0.5, 0.5, 0.5")
@@ -479,14 +512,14 @@ def body(keyword: str) -> str:
     )
 
 
-def look(keyword: str, statements: str, **scene) -> np.ndarray:
+def look(keyword: str, statements: str, **scene: str) -> Picture:
     if keyword in ("BUMPS", "WAVES", "RIPPLES"):
         scene = {"light": SUN, "color": "0.8, 0.7, 0.6", **scene}
     return picture(f"{keyword} {{ {statements} }}", **scene)
 
 
 @pytest.mark.parametrize("keyword", SPACE)
-def test_local_textures_track_their_object(keyword):
+def test_local_textures_track_their_object(keyword: str):
     moved = OVERHEAD.replace("0.3, 0.2", "7.64, -5.21")
     solid = "TRANSFORM { TRANSLATE < 7.34, -5.41, 0 > }"
     here = look(keyword, f"LOCAL {body(keyword)}")
@@ -498,8 +531,8 @@ def test_local_textures_track_their_object(keyword):
 
 
 @pytest.mark.parametrize("keyword", ["SNOW", "GRADIENT"])
-def test_local_and_transform_move_the_randomness_of_what_goes_by_elevation(keyword):
-    def ball(statements, solid=""):
+def test_local_and_transform_move_the_randomness_of_what_goes_by_elevation(keyword: str):
+    def ball(statements: str, solid: str = ""):
         return picture(f"{keyword} {{ {body(keyword)} {statements} }}", shape=BALL, view=ASIDE, solid=solid)
 
     quarter = "TRANSFORM { ROTX 90 }"
@@ -513,7 +546,7 @@ def test_local_and_transform_move_the_randomness_of_what_goes_by_elevation(keywo
 
 
 @pytest.mark.parametrize("keyword", SPACE)
-def test_a_transform_takes_the_texture_along(keyword):
+def test_a_transform_takes_the_texture_along(keyword: str):
     """Turned by a quarter about z, a texture is what it was, seen from an eye turned alike."""
     there = "FROM < 0.001, 0, 40 > TO < 0, 0, 0 >"
     turned = "FROM < 0, 0.001, 40 > TO < 0, 0, 0 >"
@@ -550,7 +583,7 @@ SILENT = {("BUMPS", "COLOR")}
         if (keyword, statement) not in SILENT
     ],
 )
-def test_every_statement_changes_the_picture(keyword, statement):
+def test_every_statement_changes_the_picture(keyword: str, statement: str):
     rest = "" if statement == "WAVE" else body(keyword)
     scene = {"shape": BALL, "view": "FROM < 28, 0, 28 > TO < 0, 0, 0 >", "solid": "TRANSFORM { ROTX 70 ROTZ 40 }"}
     without, with_it = (look(keyword, f"{rest} {text}", **scene) for text in PARAMETERS[statement])
@@ -562,7 +595,7 @@ def test_every_statement_changes_the_picture(keyword, statement):
 
 @pytest.mark.parametrize("amount", ["-1e300", "-3", "0", "1e18", "1e300"])
 @pytest.mark.parametrize("keyword", LANGUAGE.blocks["TEXTURE"].holds)
-def test_wild_amounts_are_survived(keyword, amount):
+def test_wild_amounts_are_survived(keyword: str, amount: str):
     uses = LANGUAGE.blocks[keyword].uses
     statements = " ".join(
         f"{name} {amount}" for name in ("TURBULENCE", "SQUEEZE", "SCALE", "ELEVATION") if name in uses
@@ -588,7 +621,16 @@ TURN = "ROTATE < 31, 47, -123 > TRANSLATE < 3.3, -1.7, 0.9 >"
 PAINT = "CHECKER { COLOR < 1, 1, 1 > %s }"
 
 
-def checkered(texture: str, *, shape=FLOOR, view=GRAZING, scene="", solid="", more="", samples=1) -> np.ndarray:
+def checkered(
+    texture: str,
+    *,
+    shape: str = FLOOR,
+    view: str = GRAZING,
+    scene: str = "",
+    solid: str = "",
+    more: str = "",
+    samples: int = 1,
+) -> Picture:
     """Where a floor has the texture's colour, if none of it is speckled."""
     text = f"""
         SCENE {{
@@ -622,7 +664,7 @@ MIRROR = """SOLID { SPHERE { CENTER < 0, 0, 2 > RADIUS 2 }
         {"samples": 3},
     ],
 )
-def test_a_floor_between_two_layers_of_cubes_is_of_the_upper_one(scene):
+def test_a_floor_between_two_layers_of_cubes_is_of_the_upper_one(scene: dict[str, Any]):
     """As if the cubes were let down by half a cube."""
     found = checkered(PAINT % "", **scene)
     lower = checkered(PAINT % "TRANSFORM { TRANSZ -0.5 }", **scene)
@@ -634,7 +676,7 @@ def test_a_floor_between_two_layers_of_cubes_is_of_the_upper_one(scene):
 
 @pytest.mark.parametrize("scene", [{}, {"scene": AIR}, {"more": MIRROR}])
 @pytest.mark.parametrize("step", ["", "TRANSLATE < 0, 0, 7 >", "SCALE < 0.3, 2, 0.7 >"])
-def test_the_same_of_cubes_that_are_turned_with_the_floor(scene, step):
+def test_the_same_of_cubes_that_are_turned_with_the_floor(scene: dict[str, Any], step: str):
     local = f"LOCAL TRANSFORM {{ {step} %s }}"
     solid = f"TRANSFORM {{ {TURN} }}"
     view = "FROM < 22, 9, 14 > TO < 3.4, -1.6, 0.95 >"
@@ -659,7 +701,7 @@ RANGES = "COLORS { 0 0.5 < 1, 0, 0 > < 1, 0, 0 > 0.5 1 < 0, 0, 1 > < 0, 0, 1 > }
     ],
 )
 @pytest.mark.parametrize("scene", [{}, {"scene": AIR}])
-def test_a_floor_at_a_step_of_any_texture_is_of_one_colour(texture, color, scene):
+def test_a_floor_at_a_step_of_any_texture_is_of_one_colour(texture: str, color: Triple, scene: dict[str, Any]):
     """At y = 0.25 of MARBLE, and half the scene's height of the others, which go by elevation: it is 0 to 0.2."""
     if "MARBLE" in texture:
         texture = texture.replace("{", "{ TRANSFORM { ROTX 90 TRANSZ -0.15 }", 1)

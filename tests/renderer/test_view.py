@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 import pytest
+from at_once import AtOnce
 from exit_status import exit_status
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 
 import m3dc
 from m3d_render.geometry import sphere
+from m3d_render.geometry.shape import Triangles
 from m3d_render.optics import trace_paths
 from m3d_render.rendering import SceneError
 from m3d_render.sight import view_angles
@@ -26,22 +30,24 @@ from m3d_render.view.follower import Follower
 from m3d_render.view.ground import ground, places_of_interest, round_down
 from m3d_render.view.marks import extent_box, frustum, light_marks
 from m3d_render.view.opening import Fault, Opened, open_scene
-from m3d_render.view.viewpoint import viewpoint
-from m3dc.ir import PrimitiveKind, m3ir
+from m3d_render.view.viewpoint import From, viewpoint
+from m3dc.ir import PrimitiveKind, SceneIR, m3ir
+
+T = TypeVar("T")
 
 
 @pytest.fixture(scope="module")
-def merman(examples):
+def merman(examples: Path):
     return compiled((examples / "merman.m3d").read_text())
 
 
-def compiled(text):
+def compiled(text: str):
     result = m3dc.compile(text)
     assert result.ok, result.diagnostics
     return result.ir
 
 
-def area(mesh, primitive):
+def area(mesh: Triangles, primitive: int):
     a, b, c = np.moveaxis(mesh.points[mesh.corners[mesh.primitives == primitive]], 1, 0)
     return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
 
@@ -68,6 +74,7 @@ def test_a_sphere_lies_on_its_sphere_and_its_triangles_face_outward():
     _, mesh = bodies(compiled("SOLID { SPHERE { CENTER <1,2,3> RADIUS 4 } }"))
     outward = (mesh.points - (1, 2, 3)) / 4
     np.testing.assert_allclose(np.linalg.norm(outward, axis=1), 1)
+    assert mesh.normals is not None
     np.testing.assert_allclose(mesh.normals, outward, atol=1e-12)
     assert area(mesh, 0) == pytest.approx(4 * math.pi * 16, rel=0.01)
     a, b, c = np.moveaxis(outward[mesh.corners], 1, 0)
@@ -82,6 +89,7 @@ def test_normals_of_a_phong_mesh_are_the_scenes():
     ir = scene.build()
     flat, mesh = bodies(ir)
     np.testing.assert_allclose(mesh.points[mesh.corners[1]], [corners[i] for i in (2, 1, 3)])
+    assert mesh.normals is not None
     np.testing.assert_allclose(mesh.normals[mesh.corners[1]], [normals[i] for i in (2, 1, 3)])
     assert mesh.primitives.tolist() == [1, 1]
     assert not len(flat.corners)
@@ -95,7 +103,7 @@ def test_colors_are_those_of_surfaces_and_lights():
     assert primitive_colors(ir).tolist() == [[1, 0, 0], [1, 0, 0], [0, 1, 0.5]]
 
 
-def test_many_spheres_are_coarser(merman):
+def test_many_spheres_are_coarser(merman: SceneIR):
     assert [sphere.sides(count) for count in (0, 1, 800, 5_000, 10**7)] == [48, 48, 48, 20, 8]
     # Two triangles a side and parallel, but for the poles.
     assert len(bodies(merman)[1].corners) == 4 * 48 * 2 * 23
@@ -110,7 +118,7 @@ def test_an_empty_scene_has_no_bodies():
 # --- planes, axes, marks ------------------------------------------------------------------------------------------
 
 
-def test_a_level_plane_lies_under_all_things_and_the_eye(merman):
+def test_a_level_plane_lies_under_all_things_and_the_eye(merman: SceneIR):
     ir = merman
     made = ground(ir)
     assert made.step == 50
@@ -133,11 +141,11 @@ def test_a_sloping_plane_is_a_patch_of_itself():
 @pytest.mark.parametrize(
     ("length", "step"), [(99, 50), (50, 50), (49, 20), (0.3, 0.2), (1e-7, 1e-7), (0, 1), (math.inf, 1)]
 )
-def test_steps_are_round(length, step):
+def test_steps_are_round(length: float, step: float):
     assert round_down(length) == pytest.approx(step)
 
 
-def test_axes_have_ticks_at_round_numbers_and_names_at_their_ends(merman):
+def test_axes_have_ticks_at_round_numbers_and_names_at_their_ends(merman: SceneIR):
     made = axes(merman)
     # The box of the things and the eye, from the corner nearest the eye: x is 1 there.
     np.testing.assert_allclose(made.lines[0], [[1, -9, -4], [-1407, -9, -4]])
@@ -161,7 +169,8 @@ def test_the_frustum_holds_the_corners_of_the_picture():
 def test_the_extents_are_a_box_of_twelve_edges():
     edges = extent_box(compiled("SOLID { SPHERE { CENTER <1,2,3> RADIUS 1 } }"))
     assert edges.shape == (12, 2, 3)
-    assert len({frozenset(map(tuple, edge)) for edge in edges.tolist()}) == 12
+    ends: list[list[list[float]]] = edges.tolist()
+    assert len({frozenset(map(tuple, edge)) for edge in ends}) == 12
     np.testing.assert_array_equal(edges.reshape(-1, 3).min(axis=0), [0, 1, 2])
     np.testing.assert_array_equal(edges.reshape(-1, 3).max(axis=0), [2, 3, 4])
     np.testing.assert_allclose(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1), 2)
@@ -185,7 +194,7 @@ def test_lights_shine_from_where_they_stand():
 # --- rays ---------------------------------------------------------------------------------------------------------
 
 
-def test_rays_are_curves_of_the_air_in_the_plane_of_view(merman):
+def test_rays_are_curves_of_the_air_in_the_plane_of_view(merman: SceneIR):
     ir = merman
     made = fan(ir, 9)
     np.testing.assert_allclose(made.angles, np.linspace(*view_angles(ir), 9))
@@ -216,7 +225,7 @@ def test_no_rays_leave_an_eye_outside_of_the_air():
 # --- viewpoints ---------------------------------------------------------------------------------------------------
 
 
-def test_the_scenes_camera_is_the_scenes(merman):
+def test_the_scenes_camera_is_the_scenes(merman: SceneIR):
     view = viewpoint(merman, "camera", ratio=320 / 240)
     np.testing.assert_allclose(view.position, [1, 0, 2.1])
     ahead = view.target - view.position
@@ -225,20 +234,21 @@ def test_the_scenes_camera_is_the_scenes(merman):
     assert view.angle == pytest.approx(2 * math.degrees(math.atan(math.tan(math.radians(0.75)) * 240 / 320)))
 
 
-def test_a_window_of_another_shape_shows_more(merman):
+def test_a_window_of_another_shape_shows_more(merman: SceneIR):
     ir = merman
-    wide, fitting, high = (viewpoint(ir, "camera", ratio).angle for ratio in (3, 320 / 240, 0.5))
+    wide, fitting, high = (viewpoint(ir, "camera", ratio).angle or 0.0 for ratio in (3, 320 / 240, 0.5))
     assert wide == pytest.approx(fitting)
     assert math.tan(math.radians(high) / 2) * 0.5 == pytest.approx(math.tan(math.radians(0.75)))
 
 
 @pytest.mark.parametrize("place", ["above", "side"])
 @pytest.mark.parametrize("vertical", [1, 40])
-def test_a_parallel_view_holds_the_things_and_the_eye(merman, place, vertical):
+def test_a_parallel_view_holds_the_things_and_the_eye(merman: SceneIR, place: From, vertical: float):
     ir = merman
     view = viewpoint(ir, place, ratio=1.6, vertical=vertical)
     ahead = (view.target - view.position) / np.linalg.norm(view.target - view.position)
     seen = places_of_interest(ir) * [1, 1, vertical] - view.target
+    assert view.half_height is not None
     assert (np.abs(seen @ view.up) <= view.half_height).all()
     assert (np.abs(seen @ np.cross(ahead, view.up)) <= 1.6 * view.half_height).all()
     assert ((seen + view.target - view.position) @ ahead > 0).all(), "all is before the camera"
@@ -256,9 +266,10 @@ SOLID { PLANE { } }
 """
 
 
-def test_a_thing_is_described_with_its_name_place_and_matrices(tmp_path):
+def test_a_thing_is_described_with_its_name_place_and_matrices(tmp_path: Path):
     (tmp_path / "balls.m3d").write_text(BALLS)
     opened = open_scene(str(tmp_path / "balls.m3d"))
+    assert isinstance(opened, Opened)
     assert describe(opened, 0).splitlines() == [
         "the great one (ball)",
         "solid 0, line 3",
@@ -281,38 +292,31 @@ def test_a_thing_is_described_with_its_name_place_and_matrices(tmp_path):
     assert describe(opened, 4).endswith("matrix of the solid: identity\nmatrix of the primitive: identity")
 
 
-def test_things_of_a_compiled_scene_go_by_their_numbers(tmp_path):
+def test_things_of_a_compiled_scene_go_by_their_numbers(tmp_path: Path):
     m3ir.write(m3dc.compile(BALLS, "balls.m3d").ir, tmp_path / "balls.m3ir")
-    lines = describe(open_scene(str(tmp_path / "balls.m3ir")), 0).splitlines()
+    opened = open_scene(str(tmp_path / "balls.m3ir"))
+    assert isinstance(opened, Opened)
+    lines = describe(opened, 0).splitlines()
     assert lines[:2] == ["solid 0", f"solid 0, byte {BALLS.index('SOLID ball {')} of balls.m3d"]
 
 
 # --- the file -----------------------------------------------------------------------------------------------------
 
 
-class AtOnce(Executor):
-    """Does work when it is handed in."""
-
-    def submit(self, fn, /, *args, **kwargs):
-        future = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
-
-
 class Later(Executor):
     """Does no work before it is told to."""
 
     def __init__(self):
-        self.waiting = []
+        self.waiting: list[Callable[[], None]] = []
 
-    def submit(self, fn, /, *args, **kwargs):
-        future = Future()
+    def submit(self, fn: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
+        future: Future[T] = Future()
         self.waiting.append(lambda: future.set_result(fn(*args, **kwargs)))
         return future
 
 
 @pytest.fixture
-def scene(tmp_path):
+def scene(tmp_path: Path):
     path = tmp_path / "scene.m3d"
     path.write_text("SOLID { SPHERE { } }")
     return path
@@ -324,7 +328,7 @@ def save(path: Path, text: str) -> None:
     (path.parent / "new").replace(path)
 
 
-def test_a_follower_tells_what_a_file_becomes(scene):
+def test_a_follower_tells_what_a_file_becomes(scene: Path):
     follower = Follower(scene, AtOnce())
     assert follower.poll() is None
     save(scene, "SOLID { SPHERE { RADIUS 7 } }")
@@ -346,7 +350,7 @@ def test_a_follower_tells_what_a_file_becomes(scene):
     assert isinstance(follower.poll(), Opened)
 
 
-def test_a_follower_waits_for_nothing_and_misses_nothing(scene):
+def test_a_follower_waits_for_nothing_and_misses_nothing(scene: Path):
     work = Later()
     follower = Follower(scene, work)
     save(scene, "SOLID { SPHERE { RADIUS 7 } }")
@@ -379,7 +383,14 @@ def test_a_follower_waits_for_nothing_and_misses_nothing(scene):
         (["scene.m3d", "--size", "9x9"], 2, "9 is not from 16"),
     ],
 )
-def test_what_goes_wrong_is_explained(scene, monkeypatch, capsys, arguments, status, message):
+def test_what_goes_wrong_is_explained(
+    scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    status: int,
+    message: str,
+):
     monkeypatch.chdir(scene.parent)
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.setattr("sys.platform", "linux")
@@ -388,13 +399,15 @@ def test_what_goes_wrong_is_explained(scene, monkeypatch, capsys, arguments, sta
     assert message in capsys.readouterr().err
 
 
-def test_without_pyvista_it_says_how_to_get_it(scene, monkeypatch, capsys):
+def test_without_pyvista_it_says_how_to_get_it(
+    scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
     monkeypatch.setitem(sys.modules, "pyvista", None)
     assert main([str(scene), "--screenshot", str(scene.parent / "a.png")]) == 2
     assert "pip install 'm3d-render[view]'" in capsys.readouterr().err
 
 
-def test_meshes_hold_every_primitive_but_planes(examples):
+def test_meshes_hold_every_primitive_but_planes(examples: Path):
     for path in sorted(examples.glob("*.m3d")):
         ir = m3dc.compile(path.read_bytes()).ir
         shown = [*bodies(ir), ground(ir).patches]

@@ -8,12 +8,16 @@ from __future__ import annotations
 import importlib.util
 import math
 import os
-from concurrent.futures import Executor, Future
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
-import OpenImageIO
 import pytest
+from array_types import Floats
+from at_once import AtOnce
+from numpy.typing import ArrayLike, NDArray
+from pictures import float_pixels
 from scene_builder import MERMAN_PROFILE, SceneBuilder
 
 import m3dc
@@ -25,6 +29,7 @@ from m3d_render.view.opening import Opened, open_scene
 from m3d_render.view.stage import LAYERS, Stage
 from m3d_render.view.viewpoint import fitting_vertical
 from m3d_render.view.window import Window
+from m3dc.ir import Triple
 
 RED, GREEN, BLUE, YELLOW = (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)
 
@@ -45,6 +50,8 @@ SOLID {
 )
 ALL = ",".join(LAYERS)
 
+Shoot: TypeAlias = Callable[..., NDArray[np.float32]]
+
 
 @pytest.fixture(scope="session")
 def pyvista():
@@ -55,31 +62,30 @@ def pyvista():
 
 
 @pytest.fixture
-def shot(pyvista, tmp_path):
+def shot(pyvista: Any, tmp_path: Path):
     """Writes a scene, runs the command, and gives its picture: rows x columns x 3, 0..1."""
 
-    def shoot(text, *options):
+    def shoot(text: str, *options: str):
         (tmp_path / "scene.m3d").write_text(text)
         assert main([str(tmp_path / "scene.m3d"), "--screenshot", str(tmp_path / "view.png"), *SIZE, *options]) == 0
-        picture = OpenImageIO.ImageBuf(str(tmp_path / "view.png")).get_pixels(OpenImageIO.FLOAT)
-        return picture[..., :3]
+        return float_pixels(tmp_path / "view.png")[..., :3]
 
     return shoot
 
 
-def at(picture, y, z):
+def at(picture: NDArray[np.floating], y: float, z: float):
     """The pixel of the point (0, y, z)."""
     return picture[round(100 - 2 * z), round(100 + 2 * y)]
 
 
-def is_color(pixels, color):
+def is_color(pixels: ArrayLike, color: Triple):
     """Whether pixels have a colour, in more or less light: full channels are bright and alike, empty ones dark."""
     pixels, full = np.asarray(pixels), np.array(color, bool)
     lit = pixels[..., full].min(axis=-1)
     return (lit > 0.3) & (pixels[..., full].max(axis=-1) - lit < 0.1) & (pixels[..., ~full].max(axis=-1) < 0.1)
 
 
-def test_solids_are_in_their_colors_where_the_camera_sees_them(shot):
+def test_solids_are_in_their_colors_where_the_camera_sees_them(shot: Shoot):
     picture = shot(THINGS, "--hide", ALL)
     for y, z, color in ((-20, 20, RED), (20, 20, GREEN), (-20, -21, BLUE), (20, -20, YELLOW)):
         assert is_color(at(picture, y, z), color), (y, z)
@@ -88,7 +94,7 @@ def test_solids_are_in_their_colors_where_the_camera_sees_them(shot):
     np.testing.assert_allclose([columns.min(), columns.max()], [100 + 24, 100 + 56], atol=1.5)
 
 
-def test_a_plane_is_a_patch_below_the_things(shot):
+def test_a_plane_is_a_patch_below_the_things(shot: Shoot):
     plane = "SOLID { PLANE { TRANSFORM { TRANSZ -10 } } SURFACE { COLOR < 0, 1, 0 > } } SOLID { SPHERE { RADIUS 9 } }"
     picture = shot(VIEW + plane, "--hide", "rays,camera,lights,extents,axes")
     assert is_color(picture[140:], GREEN).mean() > 0.5
@@ -96,7 +102,7 @@ def test_a_plane_is_a_patch_below_the_things(shot):
     assert not is_color(shot(VIEW + plane, "--hide", ALL), GREEN).any()
 
 
-def test_rays_are_drawn_along_their_paths(shot):
+def test_rays_are_drawn_along_their_paths(shot: Shoot):
     scene = (
         "SCENE { VIEW { FROM < 40, 0, 0 > TO < -40, 0, 0 > FOV 90 } } SOLID { SPHERE { CENTER <-40,0,0> RADIUS 1 } }"
     )
@@ -115,18 +121,18 @@ def test_rays_are_drawn_along_their_paths(shot):
 @pytest.mark.parametrize(
     ("scene", "vertical"), [("merman", 20), ("fata-morgana", 50), ("wheel", 1), ("two-balls", 1), ("terrain", 1)]
 )
-def test_heights_are_stretched_from_the_side_where_little_would_be_seen(examples, scene, vertical):
+def test_heights_are_stretched_from_the_side_where_little_would_be_seen(examples: Path, scene: str, vertical: float):
     ir = m3dc.compile((examples / f"{scene}.m3d").read_bytes()).ir
     assert fitting_vertical(ir, "side", 1.6) == vertical
     assert fitting_vertical(ir, "camera", 1.6) == fitting_vertical(ir, "above", 1.6) == 1
 
 
-def test_what_is_done_with_heights_is_said(shot, examples, capsys):
+def test_what_is_done_with_heights_is_said(shot: Shoot, examples: Path, capsys: pytest.CaptureFixture[str]):
     shot((examples / "merman.m3d").read_text(), "--from", "side")
     assert "from the side, heights stretched 20 times, or little would be seen" in capsys.readouterr().err
 
 
-def test_automatic_heights_follow_the_viewpoint_until_a_key_changes_them(pyvista, examples):
+def test_automatic_heights_follow_the_viewpoint_until_a_key_changes_them(pyvista: Any, examples: Path):
     stage = Stage(pyvista, size=(160, 100), off_screen=True, rays=3)
     opened = open_scene(str(examples / "merman.m3d"))
     assert isinstance(opened, Opened)
@@ -141,11 +147,11 @@ def test_automatic_heights_follow_the_viewpoint_until_a_key_changes_them(pyvista
     stage.plotter.close()
 
 
-def test_heights_are_stretched(shot):
+def test_heights_are_stretched(shot: Shoot):
     ball = VIEW + "SOLID { SPHERE { RADIUS 5 } SURFACE { COLOR < 1, 0, 0 > } }"
     plain, stretched = (shot(ball, "--hide", ALL, "--from", "side", "--vertical", n) for n in "14")
 
-    def shape(picture):
+    def shape(picture: NDArray[np.floating]):
         rows, columns = np.nonzero(is_color(picture, RED))
         return np.ptp(rows) / np.ptp(columns)
 
@@ -153,7 +159,7 @@ def test_heights_are_stretched(shot):
     assert shape(stretched) == pytest.approx(4, abs=0.6)
 
 
-def test_a_click_tells_what_is_there(shot, capsys):
+def test_a_click_tells_what_is_there(shot: Shoot, capsys: pytest.CaptureFixture[str]):
     shot(THINGS, "--hide", ALL, "--pick", "60,60")
     assert capsys.readouterr().out.splitlines()[:4] == [
         "a ball",
@@ -166,33 +172,26 @@ def test_a_click_tells_what_is_there(shot, capsys):
 
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".bmp"])
-def test_pictures_have_their_formats(pyvista, tmp_path, suffix):
+def test_pictures_have_their_formats(pyvista: Any, tmp_path: Path, suffix: str):
     (tmp_path / "scene.m3d").write_text(THINGS)
     picture = tmp_path / f"view{suffix}"
     assert main([str(tmp_path / "scene.m3d"), "--screenshot", str(picture), *SIZE]) == 0
-    assert OpenImageIO.ImageBuf(str(picture)).get_pixels().shape[:2] == (201, 201)
+    assert float_pixels(picture).shape[:2] == (201, 201)
 
 
 # --- the window ---------------------------------------------------------------------------------------------------
 
 
-class AtOnce(Executor):
-    """Does work when it is handed in."""
-
-    def submit(self, fn, /, *args, **kwargs):
-        future = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
-
-
 @pytest.fixture
-def window(pyvista, tmp_path, monkeypatch):
+def window(pyvista: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """A window that nobody sees, on a file of things."""
     monkeypatch.chdir(tmp_path)
     Path("scene.m3d").write_text(THINGS)
     follower = Follower(Path("scene.m3d"), AtOnce())
     stage = Stage(pyvista, size=(201, 201), off_screen=True, rays=5, hidden=LAYERS)
-    stage.show(open_scene("scene.m3d"))
+    opened = open_scene("scene.m3d")
+    assert isinstance(opened, Opened)
+    stage.show(opened)
     stage.look("camera")
     window = Window(stage, "scene.m3d", follower)
     window.press("h")
@@ -200,7 +199,7 @@ def window(pyvista, tmp_path, monkeypatch):
     stage.plotter.close()
 
 
-def picture(window):
+def picture(window: Window) -> Floats:
     window.stage.plotter.render()
     return np.asarray(window.stage.plotter.screenshot(return_img=True)) / 255
 
@@ -208,17 +207,17 @@ def picture(window):
 CORNERS = ("lower_left", "lower_right", "upper_left", "upper_right")
 
 
-def written(window, where):
+def written(window: Window, where: str) -> str:
     actor = window.stage.plotter.actors.get(where)
     return actor.GetText(CORNERS.index(where)) if actor is not None else ""
 
 
-def save(text):
+def save(text: str):
     Path("new").write_text(text)
     Path("new").replace("scene.m3d")
 
 
-def test_the_window_follows_the_file(window, capsys):
+def test_the_window_follows_the_file(window: Window, capsys: pytest.CaptureFixture[str]):
     assert not window.tick()
     assert is_color(at(picture(window), -20, 20), RED)
 
@@ -238,7 +237,7 @@ def test_the_window_follows_the_file(window, capsys):
     assert is_color(at(picture(window), -20, 20), RED)
 
 
-def test_a_camera_that_was_moved_stays_when_the_file_changes(window):
+def test_a_camera_that_was_moved_stays_when_the_file_changes(window: Window):
     nearer = VIEW.replace("50, 0, 0", "25, 0, 0")
     camera = window.stage.plotter.camera
     save(THINGS.replace(VIEW, nearer))
@@ -255,7 +254,7 @@ def test_a_camera_that_was_moved_stays_when_the_file_changes(window):
 
 
 @pytest.mark.parametrize(("key", "eye"), [*((key, "50, 0, 0") for key in "123"), ("1", "0, 0, 50"), ("1", "0, 0, -50")])
-def test_a_camera_that_is_to_be_turned_is_upright_and_sees_the_same(window, key, eye):
+def test_a_camera_that_is_to_be_turned_is_upright_and_sees_the_same(window: Window, key: str, eye: str):
     save(THINGS.replace(VIEW, VIEW.replace("50, 0, 0", eye)))
     window.tick()
     window.press(key)
@@ -276,7 +275,7 @@ def test_a_camera_that_is_to_be_turned_is_upright_and_sees_the_same(window, key,
 
 
 @pytest.mark.parametrize("key", "rcba")
-def test_a_key_shows_a_layer_and_hides_it_again(window, key):
+def test_a_key_shows_a_layer_and_hides_it_again(window: Window, key: str):
     window.press("3")
     hidden = picture(window)
     window.press(key)
@@ -286,7 +285,7 @@ def test_a_key_shows_a_layer_and_hides_it_again(window, key):
     np.testing.assert_array_equal(picture(window), hidden)
 
 
-def test_a_wireframe_lets_one_look_through(window):
+def test_a_wireframe_lets_one_look_through(window: Window):
     assert is_color(at(picture(window), 20, -18), YELLOW)
     window.press("w")
     assert not is_color(at(picture(window), 20, -18), YELLOW)
@@ -294,21 +293,21 @@ def test_a_wireframe_lets_one_look_through(window):
     assert is_color(at(picture(window), 20, -18), YELLOW)
 
 
-def test_keys_are_written_on_the_screen(window):
+def test_keys_are_written_on_the_screen(window: Window):
     assert written(window, "lower_left").split() == ["h", "keys"]
     window.press("h")
     for key in ("r  rays", "c  camera", "b  box", "w  wireframe", "1  from the scene's camera", "click: what it is"):
         assert key in written(window, "lower_left")
 
 
-def test_a_click_names_a_solid_and_a_click_beside_it_none(window):
+def test_a_click_names_a_solid_and_a_click_beside_it_none(window: Window):
     assert window.click(60, 60).startswith("a ball\n")
     assert "a ball" in written(window, "upper_right")
     assert window.click(100, 100) == ""
     assert written(window, "upper_right") == ""
 
 
-def test_a_hidden_plane_is_not_hit(window):
+def test_a_hidden_plane_is_not_hit(window: Window):
     save(THINGS + "SOLID /* floor */ { PLANE { TRANSFORM { TRANSZ -40 } } }")
     window.tick()
     assert window.click(100, 195) == ""
@@ -316,7 +315,7 @@ def test_a_hidden_plane_is_not_hit(window):
     assert window.click(100, 195).startswith("floor")
 
 
-def test_an_eye_outside_of_the_air_has_no_rays_and_is_told_so(window):
+def test_an_eye_outside_of_the_air_has_no_rays_and_is_told_so(window: Window):
     scene = SceneBuilder((0, 0, 99), (1, 0, 99)).mirage(MERMAN_PROFILE)
     scene.sphere((10, 0, 99), 3, scene.solid(color=RED))
     window.stage.show(Opened(scene.build(), None))

@@ -1,26 +1,33 @@
 """Parts of a picture, its values' range, several samples a pixel, and what it can hold beside colours."""
 
+from __future__ import annotations
+
 import itertools
 import math
+from typing import Unpack
 
 import numpy as np
 import pytest
+from array_types import Floats
+from numpy.typing import NDArray
 from scene_builder import BLACK, MERMAN_PROFILE, WHITE, SceneBuilder, merman
 
 import m3d_render
-from m3d_render.optics import trace_paths
+from m3d_render import Picture, RenderOptions
+from m3d_render.optics import trace_crossings, trace_paths
+from m3d_render.rendering import LAYERS
 from m3dc.ir import Ambient, LightKind
 
 
-def render(scene, **options):
+def render(scene: SceneBuilder, **options: Unpack[RenderOptions]) -> Picture:
     return m3d_render.render(scene.build(), **options)
 
 
-def bright(scene):
+def bright(scene: SceneBuilder):
     return scene.set(ambient=Ambient(1.0, WHITE, 0, 0))
 
 
-def directions(scene):
+def directions(scene: SceneBuilder) -> Floats:
     view = scene.scene.view
     u, v = np.arange(view.width) / (view.width - 1), np.arange(view.height) / (view.height - 1)
     point = (
@@ -53,14 +60,14 @@ def test_regions_and_rows_are_parts_of_the_whole():
     [{"rows": (5, 4)}, {"rows": (40, 50)}, {"region": (0, 64, 5, 70)}, {"region": (-1, 0, 5, 5)},
      {"rows": (0, 1), "region": (0, 0, 1, 1)}, {"samples": 0}, {"samples": 10**9}],
 )  # fmt: skip
-def test_parts_that_are_none_are_refused(options):
+def test_parts_that_are_none_are_refused(options: RenderOptions):
     with pytest.raises(m3d_render.SceneError):
         render(merman(64, 40), **options)
 
 
 def test_an_option_that_does_not_exist_is_refused():
     with pytest.raises(TypeError, match="widht"):
-        render(SceneBuilder(), widht=3)
+        render(SceneBuilder(), widht=3)  # pyright: ignore[reportCallIssue]  it must be refused
     with pytest.raises(TypeError, match="shade"):
         m3d_render.prepare(SceneBuilder().build()).render(aov=["depth", "shade"])
 
@@ -86,7 +93,7 @@ def test_normalised_values_are_divided_by_the_largest():
 # Samples
 
 
-def half_plane(width, height, tilt=0.0):
+def half_plane(width: int, height: int, tilt: float = 0.0):
     """White below an edge through the middle, black above."""
     scene = bright(SceneBuilder((10, 0, 0), (0, 0, 0), 5, width, height, tilt=tilt))
     scene.rectangle(((0, -90, 0), (0, -90, -90), (0, 90, -90)), scene.solid(ambient=1.0))
@@ -98,7 +105,7 @@ def test_an_edge_becomes_the_filters_step():
     picture = render(half_plane(5, 101), samples=1024)[..., 0]
     a = [0.35875, 0.48829, 0.14128, 0.01168]
 
-    def below(x):  # share of the filter's weight below an offset
+    def below(x: NDArray[np.int64]):  # share of the filter's weight below an offset
         t = np.clip(x / 3 + 0.5, 0, 1)
         wave = [np.sin(2 * np.pi * k * t) / (2 * np.pi * k) for k in (1, 2, 3)]
         return (a[0] * t - a[1] * wave[0] + a[2] * wave[1] - a[3] * wave[2]) / a[0]
@@ -163,7 +170,7 @@ def test_layers_of_a_sphere_before_a_plane():
 def test_layers_where_nothing_and_where_a_light_is_met():
     scene = SceneBuilder((10, 0, 0), (0, 0, 0), 30, 21, 21)
     scene.sphere((0, 0, 0), 1, scene.light(kind=LightKind.POINT))
-    layers = m3d_render.prepare(scene.build()).render(aov=list(m3d_render.rendering.LAYERS)).layers
+    layers = m3d_render.prepare(scene.build()).render(aov=list(LAYERS)).layers
     corner = {name: values[0, 0].tolist() for name, values in layers.items()}
     assert corner == {
         "depth": math.inf, "normal": [0, 0, 0], "position": [0, 0, 0], "solid": -1, "primitive": -1, "uv": [-1, -1],
@@ -190,7 +197,7 @@ def test_the_path_of_a_bent_ray():
         assert layers["position"][row, 4, 2] == pytest.approx(heights[-1], abs=1e-5)
         length = np.hypot(np.diff(r), np.diff(heights)).sum()
         assert layers["path"][row, 4, 0] == pytest.approx(length, rel=1e-7)
-        crossings = m3d_render.optics.trace_crossings(ir, angle)
+        crossings = trace_crossings(ir, angle)
         assert layers["path"][row, 4, 1] == np.searchsorted(crossings[1:, 0], 1000) + 1
     assert checked >= 8
 

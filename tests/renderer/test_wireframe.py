@@ -10,6 +10,7 @@ import numpy as np
 import OpenImageIO
 import pytest
 from exit_status import exit_status
+from numpy.typing import NDArray
 
 import m3dc
 from m3d_render import wireframe
@@ -19,10 +20,10 @@ from m3d_render.cli import main
 VIEW = "SCENE { SKY { } VIEW { FROM < 50, 0, 0 > TO < 0, 0, 0 > FOV 90 WIDTH 101 HEIGHT 101 } }"
 
 
-def drawn(text: str) -> np.ndarray:
+def drawn(text: str) -> NDArray[np.bool_]:
     result = m3dc.compile(VIEW + text)
     assert result.ok
-    return wireframe.draw(result.ir).any(axis=-1)
+    return np.any(wireframe.draw(result.ir), axis=-1)
 
 
 def edge_count(text: str) -> int:
@@ -95,7 +96,7 @@ SCREEN = (
 BAR = "SOLID { RECTANGLE { VERTEX1 <0,-40,1> VERTEX2 <0,-40,-1> VERTEX3 <0,40,-1> } SURFACE { COLOR <1,0,0> } }"
 
 
-def red(hidden: wireframe.Hidden) -> np.ndarray:
+def red(hidden: wireframe.Hidden) -> NDArray[np.float32]:
     return wireframe.draw(m3dc.compile(VIEW + SCREEN + BAR).ir, hidden=hidden)[..., 0]
 
 

@@ -7,6 +7,7 @@ else the token is passed over, so that a mistake further up does not hide what m
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from .comments import blank_comments
@@ -77,6 +78,19 @@ def read_prefix(text: str) -> Prefix:
     return reader.prefix()
 
 
+@dataclass(slots=True)
+class _Begun:
+    """A member: its tokens so far, the stack when it was begun, and the member before it, which may go on when this
+    one is given up. At the beginning of a body, and between two members, there are no tokens."""
+
+    tokens: list[Token]
+    before: list[int]
+    earlier: _Begun | None = None
+
+    def given_up(self) -> _Begun:
+        return self.earlier or _Begun([], self.before)
+
+
 class _Reader:
     def __init__(self) -> None:
         self._machine = automaton()
@@ -84,16 +98,15 @@ class _Reader:
 
     def _restart(self) -> None:
         self._stack = [0]
-        self._before = [0]  # the stack when the member was begun
+        self._begun = _Begun([], [0])
         self._opened: list[Opened] = []
-        self._member: list[Token] = []
         self._last: Token | None = None
 
     def prefix(self) -> Prefix:
         known = not (self._opened and self._opened[-1].start is None)
         expected = self._machine.accepts(self._stack) if known else frozenset[str]()
-        instead = self._machine.accepts(self._before) if known else frozenset[str]()
-        return Prefix(expected, tuple(self._opened), tuple(self._member), instead)
+        instead = self._machine.accepts(self._begun.before) if known else frozenset[str]()
+        return Prefix(expected, tuple(self._opened), tuple(self._begun.tokens), instead)
 
     def take(self, token: Token) -> None:
         """Go on by one token, whether it fits or not."""
@@ -101,16 +114,18 @@ class _Reader:
         self._last = token
 
     def _take(self, token: Token) -> None:
-        if self._opened and self._opened[-1].start is None and not self._starts_anew(token):
-            self._in_the_unknown(token)
-            return
+        if self._opened and self._opened[-1].start is None:
+            if not self._starts_anew(token):
+                self._in_the_unknown(token)
+                return
+            self._restart()
         stack = self._stack
         after = self._machine.feed(stack, token.terminal)
         if after is None:
-            stack = self._before
+            stack = self._begun.before
             after = self._machine.feed(stack, token.terminal)
             if after is not None:
-                self._member = []
+                self._begun = self._begun.given_up()
         if after is None and token.terminal == "LBRACE" and self._in_small_letters():
             stack = self._stack
             after = self._machine.feed(stack, token.terminal)
@@ -130,31 +145,29 @@ class _Reader:
         if last is None or last.terminal != "IDENTIFIER" or last.text.upper() not in LANGUAGE.keywords:
             return False
         keyword = last._replace(text=last.text.upper(), terminal=last.text.upper())
-        after = self._machine.feed(self._before, keyword.terminal)
+        stack = self._begun.before
+        after = self._machine.feed(stack, keyword.terminal)
         if after is None:
             return False
-        self._member = []
-        self._go_on(keyword, self._before, after)
+        self._begun = self._begun.given_up()
+        self._go_on(keyword, stack, after)
         return True
 
     def _go_on(self, token: Token, stack: list[int], after: list[int]) -> None:
         match token.terminal:
             case "LBRACE":
-                self._opened.append(Opened(self._member[0] if self._member else None))
-                self._member = []
-                self._before = after
+                tokens = self._begun.tokens
+                self._opened.append(Opened(tokens[0] if tokens else None))
+                self._begun = _Begun([], after)
             case "RBRACE":
                 self._opened.pop()
-                self._member = []
-                self._before = after
+                self._begun = _Begun([], after)
             case "SEMICOLON":
-                self._member = []
-                self._before = after
+                self._begun = _Begun([], after)
             case _:
                 if self._begins(token):
-                    self._before = stack
-                    self._member = []
-                self._member.append(token)
+                    self._begun = _Begun([], stack, self._begun)
+                self._begun.tokens.append(token)
         self._stack = after
 
     def _begins(self, token: Token) -> bool:
@@ -164,7 +177,8 @@ class _Reader:
         if token.terminal != "IDENTIFIER" or self._opened:
             return False
         # At top level a name is the target of an assignment, unless it goes on with what was begun.
-        last = self._member[-1].terminal if self._member else ""
+        tokens = self._begun.tokens
+        last = tokens[-1].terminal if tokens else ""
         return last not in ("EQUAL", "LANGLE", "COMMA") and last not in LANGUAGE.keywords
 
     def _starts_anew(self, token: Token) -> bool:

@@ -37,6 +37,10 @@ CASES: list[tuple[str, set[str], list[str], str]] = [
     ("SOLID { SPHERE { LIGHT { ", {*LANGUAGE.blocks["LIGHT"].members(), "RBRACE"}, ["LIGHT"], ""),
     ("SOLID { SPHER { RADIUS ", set(), ["SOLID", "?"], ""),
     ("SOLID { SPHER { RADIUS { } } SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
+    # A name that leads nowhere is given up, and what stood before it goes on.
+    ("SOLID wheel a { ", MEMBERS_OF_SOLID, ["SOLID"], ""),
+    ("SOLID wheel a { } } ", TOP, [], ""),
+    ("wheels { SOLID { SPHERE { ", SPHERE, ["SOLID", "SPHERE"], ""),
     ("} } SOLID ", {"IDENTIFIER", "LBRACE"}, [], "SOLID"),
     ("VARIABLES { SOLID a, ; LIGHT ", {"IDENTIFIER"}, ["VARIABLES"], "LIGHT"),
     ("VARIABLES { NUMBER SCENE { SHADOWS VIEW ", {"LBRACE"}, ["SCENE"], "VIEW"),
@@ -53,6 +57,12 @@ def test_what_is_known_at_the_end(text: str, expected: set[str], opened: list[st
     assert prefix.expected == expected
     assert [o.keyword or (f"={o.target}" if o.target else "?") for o in prefix.opened] == opened
     assert " ".join(token.text for token in prefix.member) == member
+
+
+@given(st.lists(st.sampled_from([*"{}<>,;=", "a", "1", "sphere", *sorted(LANGUAGE.keywords)])))
+def test_words_in_any_order_can_be_read(words: list[str]) -> None:
+    opened = len(read_prefix(" ".join(words)).opened)
+    assert opened <= words.count("{")
 
 
 @given(st.text(alphabet="{}<>,;= \n/*1a").map(lambda text: text.replace("a", " SPHERE ").replace("1", " 1 ")))

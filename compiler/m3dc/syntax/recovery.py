@@ -682,7 +682,9 @@ class Reader:
         if not self._closed and self._misfit is not None and len(self._open) == 1:
             raise _AgainError([self._misfit])
         marked = self._marks.get(self._start, 0)
-        if not self._closed and len(self._findings.found) == marked and len(self._open):
+        # What stands in no table may well stand in the block around it: of that one nothing is known yet.
+        outside = token.kind == "end" or self._ends_all(token) or not self._around
+        if outside and not self._closed and len(self._findings.found) == marked and len(self._open):
             end = token.start if token.kind != "end" else self._lexer.end
             faults = brace_faults(self._blanked(self._start, end))
             if faults and all(fault.missing for fault in faults) and len(faults) == len(self._open):
@@ -1011,14 +1013,18 @@ class Reader:
         first = self._peek()
         wanted = len(entry.arguments) if entry else 4
         shape = None if entry is None or entry.is_flag else entry.arguments[0].shape
+        if shape is not None:
+            self._extra_commas(wanted)
         while self._starts_value() and self._is_argument(entry, block):
             value = self._value("vector" if shape == "vector" else "number" if shape else None)
             found += [value] if value is not None else []
             token = self._peek()
             if token.kind == ",":
                 comma = self._next()
+                omitted = len(found) < wanted and self._extra_commas(wanted)
                 if not self._starts_value() or not self._is_argument(entry, block):
-                    self._superfluous(comma, "statements follow one another without a comma")
+                    if not omitted:
+                        self._superfluous(comma, "statements follow one another without a comma")
                     break
             elif len(found) < wanted and token.kind == "number" and shape != "vector" and value is not None:
                 self._missing(",")
@@ -1046,6 +1052,19 @@ class Reader:
         span = (first.start, self._before)
         self._fault("M3D0102", span, "a vector stands between < and >", edits=edits, title=title)
         self._doubtful = True
+
+    def _extra_commas(self, wanted: int) -> bool:
+        """Pass commas where one of the numbers that are `wanted` should stand. Among several numbers a comma is no more
+        likely one too many than a number is missing: whether that was reported."""
+        omitted = self._peek().kind == "," and wanted > 1
+        if omitted:
+            self._fault("M3D0103", self._peek().span, "found ','; a number stands before and after each comma")
+            self._doubtful = True
+        while self._peek().kind == ",":
+            comma = self._next()
+            if wanted == 1:
+                self._superfluous(comma, "a keyword is followed by its value, with nothing between them")
+        return omitted
 
     def _is_argument(self, entry: Statement | None, block: Block | None) -> bool:
         """Whether a word here is an argument, not a keyword that is written in another way."""

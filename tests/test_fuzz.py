@@ -55,6 +55,8 @@ KEPT = {
     "wireframe": (
         b"SOLID { TERRAIN { VERTICES { 2 3 <0,0,0> <0,2,0> <0,10,0> <1,0,0> <1,1,0> <1e18,1,0> } } }",
         b"SOLID { SPHERE { RADIUS 1e-320 CENTER < 20, 0, 6 > } }",
+        b"SOLID { TRANSFORM { SCALEZ 0.68 TRANSX 2.86e+19 } RECTANGLE { VERTEX1 < 9, 2, 1 > VERTEX2 < 2, 892, -31 > } "
+        b"SPHERE { CENTER < 0, 1, -1 > } }",
     ),
 }
 

@@ -128,9 +128,14 @@ def within(a: Points, b: Points, columns: int, rows: int) -> tuple[Points, Point
             high = np.where(p > 0, np.minimum(high, t), high)
             low = np.where((p == 0) & (q < 0), 2.0, low)
     kept = low <= high
-    a, delta = a[kept], delta[kept]
-    starts, ends = (_clipped(a + at[kept, None] * delta, columns, rows) for at in (low, high))
+    starts, ends = (_clipped(between(a[kept], b[kept], share[kept]), columns, rows) for share in (low, high))
     return starts, ends
+
+
+def between(a: Points, b: Points, shares: NDArray[np.float64]) -> Points:
+    """Points of the lines from a to b, at shares of their lengths. Of two positive nearnesses none becomes 0, not even
+    where one is so small that it is lost beside the other."""
+    return (1 - shares[:, None]) * a + shares[:, None] * b
 
 
 def _clipped(points: Points, columns: int, rows: int) -> Points:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.rendering import prepare
-from m3d_render.wireframe.camera import above, before_the_eye, to_camera, to_pixels, to_scene, within
+from m3d_render.wireframe.camera import above, before_the_eye, between, to_camera, to_pixels, to_scene, within
 from m3d_render.wireframe.edges import CIRCLE_STEPS, Edges, edges
 from m3d_render.wireframe.marks import MARKS, frustum_points, marks
 from m3dc.ir import SceneIR, View
@@ -104,9 +104,8 @@ def _divided(
         counts = np.ones(len(across), np.int64) if one_piece else np.ceil(across / _PIECE).astype(np.int64) + 1
         line = np.repeat(np.arange(len(counts)), counts)
         step = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
-        delta = (layer.ends - layer.starts)[line] / counts[line, None]
-        starts = layer.starts[line] + step[:, None] * delta
-        ends = starts + delta
+        a, b = layer.starts[line], layer.ends[line]
+        starts, ends = (between(a, b, place / counts[line]) for place in (step, step + 1))
         hidden = np.zeros(len(line), bool)
         for points in (starts, ends):
             hidden |= ~tracer.sees(to_scene(view, points, columns, rows), _TOLERANCE)

@@ -106,7 +106,7 @@ def _outcome(program: str, action: Callable[[], int]) -> tuple[int, str]:
     except OSError as error:
         where = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
         return USAGE_ERROR, f"error: {where or 'cannot write the output: '}{error.strerror or error}"
-    except BaseException as error:  # a panic of the kernel is no Exception
+    except BaseException as error:  # whatever it is: no traceback
         return USAGE_ERROR, _internal(program, error)
     return status, ""
 

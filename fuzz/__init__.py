@@ -69,7 +69,7 @@ def repeating(make: Callable[[random.Random], bytes], check: Callable[[bytes], s
 
 
 def outcome(check: Callable[[bytes], str | None], data: bytes) -> str | None:
-    """What is wrong with an input; what `check` raises is wrong, too. A panic of Rust code is no Exception."""
+    """What is wrong with an input; what `check` raises is wrong, too."""
     try:
         return check(data)
     except KeyboardInterrupt:

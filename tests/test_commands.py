@@ -383,10 +383,10 @@ FAULTS = {
     "no memory": ("raise MemoryError", 2, "error: this does not fit in memory"),
     "a fault": ("raise KeyError('of ours')", 2, "internal error: KeyError: 'of ours' (<string>:4)"),
     "a disk": ("raise OSError(5, 'Input/output error')", 2, "Input/output error"),
-    "a panic": (
-        "raise type('PanicException', (BaseException,), {{}})('index out of bounds')".replace("{{}}", "{}"),
+    "what is no Exception": (
+        "raise type('Panic', (BaseException,), {{}})('index out of bounds')".replace("{{}}", "{}"),
         2,
-        "internal error: PanicException: index out of bounds",
+        "internal error: Panic: index out of bounds",
     ),
 }
 

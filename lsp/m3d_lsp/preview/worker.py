@@ -145,7 +145,7 @@ class Worker:
             ended = Ended(job.number, "error", str(error))
         except MemoryError:
             ended = Ended(job.number, "error", "the picture does not fit in memory; a smaller one may")
-        except BaseException as error:  # a panic of the kernel is no Exception
+        except BaseException as error:  # whatever it is, the next job is done
             log.exception("%s failed", type(job).__name__)
             ended = Ended(job.number, "error", f"the renderer failed: {error}; the server's log says more")
         del self._tiles[job.number]

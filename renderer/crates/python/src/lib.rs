@@ -1,6 +1,7 @@
 //! The kernel as a Python module, `m3d_render._kernel`. The package around it checks arguments and explains them;
 //! here only what must be native.
 
+mod fault;
 mod tables;
 
 use std::sync::atomic::Ordering;
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -28,6 +29,7 @@ use m3d_kernel::scene;
 use m3d_kernel::trace::blocked;
 use m3d_work::{Canvas, Tile, Watch, render};
 
+use fault::{failed, guarded};
 use tables::PythonTables;
 
 /// How often the waiting thread looks for an interrupt.
@@ -110,9 +112,11 @@ struct Scene(scene::Scene);
 impl Scene {
     #[new]
     fn new(header: &str, tables: &Bound<PyAny>, finer: usize) -> PyResult<Self> {
-        let tables = PythonTables::of(tables)?;
-        let scene = Ir::new(header, &tables).and_then(|ir| m3d_ir::scene(&ir, finer));
-        scene.map(Self).map_err(refused)
+        guarded(|| {
+            let tables = PythonTables::of(tables)?;
+            let scene = Ir::new(header, &tables).and_then(|ir| m3d_ir::scene(&ir, finer));
+            scene.map(Self).map_err(refused)
+        })
     }
 
     /// The heights between which an observer must stand for a mirage, and the observer's; None without one.
@@ -142,10 +146,8 @@ impl Scene {
             let ray = Ray { to: length * (1.0 - tolerance), ..Ray::new(eye, line / length) };
             !(length > 0.0 && blocked(&scene.shapes, &scene.solid_tree, &ray, stack))
         };
-        Ok(PyArray1::from_vec(
-            py,
-            py.detach(|| points.par_iter().map_init(Vec::new, sees).collect::<Vec<bool>>()),
-        ))
+        let seen = guarded(|| Ok(py.detach(|| points.par_iter().map_init(Vec::new, sees).collect())))?;
+        Ok(PyArray1::from_vec(py, seen))
     }
 
     /// The pixels of a region. Callbacks, None or callable, are called from the calling thread:
@@ -189,11 +191,7 @@ impl Scene {
                     watch.cancelled.store(true, Ordering::Relaxed);
                 }
             }
-            let tally = match work.join() {
-                Ok(tally) => Ok(tally),
-                Err(_) => Err(PyRuntimeError::new_err("the renderer failed: please report this scene")),
-            };
-            (tally, stopped)
+            (work.join().map_err(|_| failed()), stopped)
         });
         let tally = tally?;
         if !stopped? {
@@ -327,10 +325,12 @@ struct Air(Atmosphere);
 impl Air {
     #[new]
     fn new(header: &str, tables: &Bound<PyAny>, finer: usize) -> PyResult<Self> {
-        let tables = PythonTables::of(tables)?;
-        let air = Ir::new(header, &tables).and_then(|ir| m3d_ir::air(&ir, finer)).map_err(refused)?;
-        let none = || PyValueError::new_err("the scene has no MIRAGE, so its rays are straight");
-        Ok(Self(air.ok_or_else(none)?))
+        guarded(|| {
+            let tables = PythonTables::of(tables)?;
+            let air = Ir::new(header, &tables).and_then(|ir| m3d_ir::air(&ir, finer)).map_err(refused)?;
+            let none = || PyValueError::new_err("the scene has no MIRAGE, so its rays are straight");
+            Ok(Self(air.ok_or_else(none)?))
+        })
     }
 
     /// The layers, from the lowest: rows of (bottom, top, curvature of a level ray there, 1/m), positive where it is
@@ -359,14 +359,16 @@ impl Air {
         let mut heights = Vec::with_capacity(slopes.len() * distances.len());
         for &slope in slopes {
             py.check_signals()?;
-            path.start(height, slope);
-            let tip = path.end_tip();
+            let tip = guarded(|| {
+                path.start(height, slope);
+                Ok(path.end_tip())
+            })?;
             ends.push(end_number(tip.end));
             tips.extend([tip.r, tip.z, tip.slope]);
             arcs.push(tip.arcs as u32);
             let mut arc = 0;
             for &distance in &distances {
-                let found = path.find(distance, arc).filter(|_| distance >= 0.0);
+                let found = guarded(|| Ok(path.find(distance, arc)))?.filter(|_| distance >= 0.0);
                 arc = found.unwrap_or(arc);
                 heights.push(found.map_or(f64::NAN, |i| path.arcs()[i].height(distance)));
             }
@@ -384,9 +386,12 @@ impl Air {
         slope: f64,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let mut path = self.path(height)?;
-        path.start(height, slope);
         let mut points = vec![0.0, height];
-        points.extend(path.keep_all().iter().flat_map(|arc| [arc.r1, arc.z1]));
+        guarded(|| {
+            path.start(height, slope);
+            points.extend(path.keep_all().iter().flat_map(|arc| [arc.r1, arc.z1]));
+            Ok(())
+        })?;
         let rows = points.len() / 2;
         PyArray1::from_vec(py, points).reshape([rows, 2])
     }
@@ -428,6 +433,7 @@ fn end_number(end: Option<End>) -> u8 {
 
 #[pymodule]
 fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
+    fault::note_panics();
     module.add_class::<Scene>()?;
     module.add_class::<Air>()?;
     module.add("EARTH_RADIUS", EARTH_RADIUS)?;

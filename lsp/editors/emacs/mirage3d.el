@@ -97,8 +97,16 @@ nil if it is none."
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.m3d\\'" . mirage3d-mode))
 
+(defclass mirage3d-server (eglot-lsp-server) ()
+  :documentation "The server of Mirage3D scenes.")
+
+(cl-defmethod eglot-client-capabilities ((_server mirage3d-server))
+  "What Eglot can do, and that dumps want to follow their scene."
+  (plist-put (cl-call-next-method) :experimental '(:m3d (:analysed t))))
+
 (add-to-list 'eglot-server-programs
-             (cons 'mirage3d-mode (lambda (&rest _) mirage3d-command)))
+             (cons 'mirage3d-mode
+                   (lambda (&rest _) (cons 'mirage3d-server mirage3d-command))))
 
 ;;; What the server answers beyond LSP (docs/protocol.md)
 

@@ -123,12 +123,14 @@ function M.attach(buffer)
   buffer = buffer == 0 and vim.api.nvim_get_current_buf() or buffer
   local running = client_id and vim.lsp.get_client_by_id(client_id)
   if not running or running.is_stopped() then
+    local capabilities = vim.lsp.protocol.make_client_capabilities()
+    capabilities.experimental = { m3d = { analysed = true } } -- for dumps that follow their scene
     client_id = vim.lsp.start_client({
       name = "m3d-lsp",
       cmd = options.command,
       root_dir = vim.fn.getcwd(),
       settings = { m3d = options.settings },
-      capabilities = vim.lsp.protocol.make_client_capabilities(),
+      capabilities = capabilities,
       on_attach = on_attach,
       handlers = {
         ["m3d/analysed"] = function(_, params)

@@ -48,6 +48,7 @@ KEPT = {
         b"SOLID { TRIANGLE { VERTEX1 < 1e20, 0, 0 > TRANSFORM { SCALEX 1e200 } } TRANSFORM { SCALEX 1e100 } }",
     ),
     "text": (
+        b"SOLID COLORS MBIENT }",
         b"SOLID { SPHERE { CENTER < 1e20, 0, 0 > } TRANSFORM { SCALE < 1e300, 1e300, 1e300 > } }",
         b"SOLID { POLYGONS { VERTICES { 3 <0,0,0> <1,0,0> <0,1,0> } SFACETS { 1 0 1 2 <0,0,1> <0,0,1> <0,0,1> } } "
         b"TRANSFORM { SCALEX 1e-300 } }",

@@ -931,14 +931,7 @@ class Reader:
 
     def _table(self, keyword: ast.Keyword, token: Token, block: Block | None) -> ast.Table | None:
         if self._peek().kind != "{":
-            self._opened(token)
-            if (
-                self._open
-                and self._open[-1].start == self._open[-1].end
-                and self._peek().kind in ("number", "<", "word")
-            ):
-                pass
-            else:
+            if not self._opened(token):
                 self._skip_values()
                 return None
         else:

@@ -179,6 +179,8 @@ def test_what_a_client_can_not_show_is_not_sent() -> None:
             ("VARIABLES", None),
             ("size", "VARIABLES"),
         ]
+        (solid,) = (each for each in symbols if each["name"] == "SOLID")
+        assert solid["containerName"] == "SPHERE, red"
         assert {each["kind"] for each in symbols} <= set(range(1, 19))
         assert {each["location"]["uri"] for each in symbols} == {URI}
         found = talk.ask(2, request(2, "workspace/symbol", {"query": ""}))

@@ -60,9 +60,13 @@ def _symbol(client: Client, entry: Entry, ranges: Iterator[types.Range]) -> type
 def _flat(
     snapshot: Snapshot, entry: Entry, ranges: Iterator[types.Range], container: str | None
 ) -> Iterator[types.SymbolInformation]:
-    """The symbol of an entry, and those in it; takes the ranges of all of them."""
+    """The symbol of an entry, and those in it; takes the ranges of all of them.
+
+    A list has no room for details: those of what stands in no other block take the container's place.
+    """
     whole, _ = next(ranges), next(ranges)
     location = types.Location(snapshot.uri, whole)
-    yield types.SymbolInformation(location, entry.name, snapshot.client.shown(kind_of(entry)), container_name=container)
+    within = container or entry.detail or None
+    yield types.SymbolInformation(location, entry.name, snapshot.client.shown(kind_of(entry)), container_name=within)
     for child in entry.children:
         yield from _flat(snapshot, child, ranges, entry.name)

@@ -1,9 +1,11 @@
 //! The kernel for a web page. A module without imports, whose exported functions pass numbers and places in its memory:
 //!
-//!     const room = exports.room(file.length);                     // where the .m3ir file goes
-//!     new Uint8Array(exports.memory.buffer).set(file, room);
-//!     if (exports.open()) throw text(exports.text(), exports.text_length());
-//!     const pixels = exports.render(width, height, straight);     // width * height * 3 floats
+//! ```js
+//! const room = exports.room(file.length);                     // where the .m3ir file goes
+//! new Uint8Array(exports.memory.buffer).set(file, room);
+//! if (exports.open()) throw text(exports.text(), exports.text_length());
+//! const pixels = exports.render(width, height, straight);     // width * height * 3 floats
+//! ```
 //!
 //! One scene is open at a time. The module runs on the thread that calls it.
 

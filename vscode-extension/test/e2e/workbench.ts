@@ -90,7 +90,16 @@ export class Workbench {
       await this.focus(name);
       return this.editor(name);
     }
-    await this.page.locator(`.explorer-folders-view .monaco-list-row[aria-label*="${name}"]`).dblclick();
+    const row = this.page.locator(`.explorer-folders-view .monaco-list-row[aria-label*="${name}"]`);
+    if ((await row.count()) > 0) {
+      await row.dblclick();
+    } else {
+      // The list of files draws only what there is room for.
+      await this.page.keyboard.press("F1");
+      await this.page.locator(".quick-input-widget .quick-input-box input").fill(name);
+      await this.page.locator(`.quick-input-list .monaco-list-row[aria-label*="${name}"]`).first().waitFor();
+      await this.page.keyboard.press("Enter");
+    }
     const editor = this.editor(name);
     await editor.waitFor();
     return editor;

@@ -373,6 +373,8 @@ step("how long the extension takes to start", async () => {
 });
 
 step("a preview comes back as it was when the window is opened again", async () => {
+  await workbench.openScene(SCENE);
+  await workbench.command("Mirage3D: Open Preview to the Side");
   const pinned = workbench.page.locator(`.tab[aria-label*="[Preview ${SCENE}]"]`);
   await workbench.preview.getByRole("button", { name: "Straight" }).click();
   await workbench.preview.getByRole("button", { name: "Pin" }).click();

@@ -92,19 +92,3 @@ def _too_many(text: str) -> Iterator[BraceFault]:
                 yield BraceFault(False, token.start, token.start)
             else:
                 open_.pop()
-
-
-def repaired(data: bytes, faults: list[BraceFault]) -> bytes | None:
-    """The text with its braces mended and everything else at its place; None where there is no room for a brace."""
-    mended = bytearray(data)
-    for fault in faults:
-        if not fault.missing:
-            mended[fault.offset : fault.offset + 1] = b" "
-            continue
-        at = fault.offset
-        while at < len(mended) and mended[at] == ord("}"):
-            at += 1
-        if at < len(mended) and not mended[at : at + 1].isspace():
-            return None
-        mended[at : at + 1] = b"}"
-    return bytes(mended)

@@ -8,8 +8,8 @@ import random
 import re
 from collections.abc import Iterable
 
-from tree_sitter_m3d import table as language
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language import table as language
+from m3d_language.table import LANGUAGE
 
 TOKEN = re.compile(r"/\*.*?\*/|[^\s{}<>,;=]+|\S", re.DOTALL)
 EXTREMES = (0.0, -0.0, 1.0, -1.0, 1e-300, 5e-324, 1e-20, 1e20, -1e20, 1e38, 1e150, -1e150, 1e154, 1e300, 1.7e308)

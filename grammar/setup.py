@@ -13,7 +13,7 @@ class BuildWithData(build_py):
     def run(self) -> None:
         super().run()
         if not self.editable_mode:
-            package = Path(self.build_lib, "tree_sitter_m3d")
+            package = Path(self.build_lib, "m3d_language")
             (package / "queries").mkdir(parents=True, exist_ok=True)
             for file in ["m3d.lark", *map(str, Path("queries").glob("*.scm"))]:
                 self.copy_file(file, str(package / file))
@@ -23,7 +23,7 @@ setup(
     cmdclass={"build_py": BuildWithData},
     ext_modules=[
         Extension(
-            "tree_sitter_m3d._binding",
+            "m3d_language._binding",
             sources=["src/binding.c", "src/parser.c", "src/scanner.c", "src/table_reader.c"],
             depends=["src/table_reader.h", "src/tree_sitter/parser.h"],
             include_dirs=["src"],

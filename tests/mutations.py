@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tree_sitter_m3d.comments import blank_comments
+from m3d_language.comments import blank_comments
 
 TOKEN = re.compile(r"[+-]?\.?[0-9](?:[eE][+-]|[A-Za-z0-9_.])*|[A-Za-z]\w*|\S")
 

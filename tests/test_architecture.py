@@ -13,21 +13,21 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = {
-    "tree_sitter_m3d": ROOT / "grammar/tree_sitter_m3d",
+    "m3d_language": ROOT / "grammar/m3d_language",
     "m3dc": ROOT / "compiler/m3dc",
     "m3d_render": ROOT / "renderer/m3d_render",
     "m3d_lsp": ROOT / "lsp/m3d_lsp",
 }
 FIGURES = {"matplotlib", "PIL"}
 MAY_IMPORT = {
-    "tree_sitter_m3d": {"lark"},
-    "m3dc": {"m3dc_command", "tree_sitter_m3d", "tree_sitter", "numpy"},
+    "m3d_language": {"lark"},
+    "m3dc": {"m3dc_command", "m3d_language", "tree_sitter", "numpy"},
     "m3d_render": {"m3dc", "m3dc_command", "numpy", "OpenImageIO", *FIGURES, "pyvista"},
     "m3d_lsp": {
         "m3dc",
         "m3dc_command",
         "m3d_render",
-        "tree_sitter_m3d",
+        "m3d_language",
         "tree_sitter",
         "numpy",
         "pygls",
@@ -144,7 +144,7 @@ def test_a_command_line_loads_only_what_it_needs() -> None:
 
 def test_the_tree_knows_no_keyword() -> None:
     """No node of the syntax tree is named after a block or statement of the language."""
-    from tree_sitter_m3d.table import LANGUAGE
+    from m3d_language.table import LANGUAGE
 
     tree = ast.parse((PACKAGES["m3dc"] / "syntax/ast.py").read_text(encoding="utf-8"))
     names = {node.name.upper() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}

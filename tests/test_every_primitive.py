@@ -14,6 +14,7 @@ from primitives import ENDLESS, PRIMITIVES, scene
 import m3d_render
 import m3dc
 from bench import povray
+from m3d_language.table import LANGUAGE
 from m3d_render.geometry import ViewPlane
 from m3d_render.plot.section import section
 from m3d_render.view.bodies import bodies
@@ -21,7 +22,6 @@ from m3d_render.view.ground import ground
 from m3d_render.wireframe import edges
 from m3dc.ir import PRIMITIVE_TABLE, PrimitiveKind, SceneIR
 from m3dc.ir.dump import dump
-from tree_sitter_m3d.table import LANGUAGE
 
 
 @pytest.fixture(params=PrimitiveKind, ids=lambda kind: kind.name)

@@ -11,11 +11,11 @@ from primitives import ENDLESS, PRIMITIVES
 
 import m3d_render
 import m3dc
+from m3d_language.table import LANGUAGE
 from m3dc.diagnostics.catalogue import CATALOGUE
 from m3dc.ir import PrimitiveKind
 from m3dc.meaning.effects import ENDLESS as WITHOUT_END
 from m3dc.meaning.effects import NEEDS, RULES
-from tree_sitter_m3d.table import LANGUAGE
 
 DIAGNOSTICS = Path(__file__).parent / "compiler/diagnostics"
 WITHOUT_EFFECT = (

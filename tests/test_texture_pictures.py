@@ -6,8 +6,8 @@ import pytest
 from pictures import assert_current, in_steps, stored
 
 import m3dc
+from m3d_language.table import LANGUAGE
 from tools import texture_pictures
-from tree_sitter_m3d.table import LANGUAGE
 
 EDGE_PIXELS = 0.005
 MOST_BYTES = 40_000

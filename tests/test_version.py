@@ -10,7 +10,7 @@ import pytest
 
 from tools import version
 
-DISTRIBUTIONS = ("tree-sitter-m3d", "m3dc", "m3d-render", "m3d-lsp")
+DISTRIBUTIONS = ("m3d-language", "m3dc", "m3d-render", "m3d-lsp")
 
 
 def test_every_file_states_it() -> None:

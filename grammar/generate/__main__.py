@@ -25,7 +25,7 @@ def outputs() -> dict[Path, str]:
     files = {GRAMMAR / "keywords.js": keywords.text(language)}
     grammar = formal.text(language, (GRAMMAR / "generate/m3d.lark.template").read_text("utf-8"))
     files[GRAMMAR / "m3d.lark"] = grammar
-    files[GRAMMAR / "tree_sitter_m3d/automaton.json"] = automaton.text(grammar)
+    files[GRAMMAR / "m3d_language/automaton.json"] = automaton.text(grammar)
     files |= {GRAMMAR / "queries" / name: text for name, text in queries.texts(language).items()}
     files |= {ROOT / "docs/language" / name: text for name, text in reference.pages(language).items()}
     extension = ROOT / "vscode-extension"
@@ -69,7 +69,7 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if a file is not current")
     run = check if parser.parse_args().check else write
     # The table first: the other modules import the package that reads it.
-    stale = run({GRAMMAR / "tree_sitter_m3d/language.json": table.text(GRAMMAR / "language.toml")}) or 0
+    stale = run({GRAMMAR / "m3d_language/language.json": table.text(GRAMMAR / "language.toml")}) or 0
     stale += run(outputs()) or 0
     if stale:
         print("Run `make generate` and commit the result.", file=sys.stderr)

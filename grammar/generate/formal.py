@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from string import Template
 
-from tree_sitter_m3d.table import Argument, Block, Language, Statement, Table
+from m3d_language.table import Argument, Block, Language, Statement, Table
 
 SHAPES = {"number": "number", "integer": "number", "vector": "vector"}
 WIDTH = 100

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from tree_sitter_m3d.table import Block, Language
+from m3d_language.table import Block, Language
 
 HEADER = "// Generated from language.toml by `make generate`.\n"
 

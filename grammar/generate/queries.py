@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tree_sitter_m3d.table import Language
+from m3d_language.table import Language
 
 from . import keywords
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from string import Template
 
-from tree_sitter_m3d.phrases import facts, listed, table_facts, written
-from tree_sitter_m3d.table import Block, Language, Page, Statement, Table
+from m3d_language.phrases import facts, listed, table_facts, written
+from m3d_language.table import Block, Language, Page, Statement, Table
 
 HEADER = "<!-- Generated from grammar/language.toml by `make generate`. -->\n"
 

@@ -13,8 +13,8 @@ import json
 import re
 from collections.abc import Iterator
 
-from tree_sitter_m3d import example
-from tree_sitter_m3d.table import Block, Language, Statement
+from m3d_language import example
+from m3d_language.table import Block, Language, Statement
 
 _VECTOR = re.compile(r"\t*\w+ <")
 _STOP = re.compile(r"\$\{\d+:(.*?)\}")

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from tree_sitter_m3d.table import Language
+    from m3d_language.table import Language
 
 
 def text(source: Path) -> str:
@@ -19,6 +19,6 @@ def text(source: Path) -> str:
 
 def load(source: Path) -> Language:
     """The language as language.toml describes it now."""
-    from tree_sitter_m3d.table import Language
+    from m3d_language.table import Language
 
     return Language(tomllib.loads(source.read_text(encoding="utf-8")))

@@ -1,5 +1,5 @@
 /*
- * The Python extension module tree_sitter_m3d._binding: the tree-sitter language, and the reader of big tables.
+ * The Python extension module m3d_language._binding: the tree-sitter language, and the reader of big tables.
  */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -53,7 +53,7 @@ static int check_range(const Py_buffer *source, Py_ssize_t start, Py_ssize_t end
 
 PyDoc_STRVAR(read_table_doc,
              "read_table(source, start, end, head, row) -> (head, rows, offsets, offset_size, stopped_at, expected)\n\n"
-             "See tree_sitter_m3d.bulk.read_table.");
+             "See m3d_language.bulk.read_table.");
 
 static PyObject *read_table(PyObject *module, PyObject *arguments) {
     (void)module;
@@ -100,7 +100,7 @@ done:
 
 PyDoc_STRVAR(only_numbers_doc,
              "only_numbers(source, start, end) -> bool\n\n"
-             "See tree_sitter_m3d.bulk.only_numbers.");
+             "See m3d_language.bulk.only_numbers.");
 
 static PyObject *only_numbers(PyObject *module, PyObject *arguments) {
     (void)module;

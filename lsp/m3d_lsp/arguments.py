@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tree_sitter_m3d.phrases import allowed
-from tree_sitter_m3d.table import Argument, Statement, Table
+from m3d_language.phrases import allowed
+from m3d_language.table import Argument, Statement, Table
 
 from .cursor import Slot
 from .explain import argument_name

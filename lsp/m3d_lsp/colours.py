@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
+from m3d_language import blank_comments
+from m3d_language.table import Argument
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import Vector
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d import blank_comments
-from tree_sitter_m3d.table import Argument
 
 from .names import Names, names
 from .rows import row_starts

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 from tree_sitter import Tree
 
-from tree_sitter_m3d import blank_comments
-from tree_sitter_m3d.prefix import NOTHING, Prefix, Token, read_prefix
-from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Statement, Table
+from m3d_language import blank_comments
+from m3d_language.prefix import NOTHING, Prefix, Token, read_prefix
+from m3d_language.table import LANGUAGE, Argument, Block, Statement, Table
 
 from .names import names
 from .snapshot import Snapshot

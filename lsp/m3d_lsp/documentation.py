@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 # Beside the sources, where the server runs from a checkout; an installed one has no pages.
 DOCS = Path(__file__).parents[2] / "docs"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from tree_sitter_m3d.phrases import facts, listed, table_facts, written
-from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Statement, Table
+from m3d_language.phrases import facts, listed, table_facts, written
+from m3d_language.table import LANGUAGE, Argument, Block, Statement, Table
 
 from .documentation import page_of_block, page_of_variables
 from .markdown import fenced

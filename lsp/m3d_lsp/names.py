@@ -13,12 +13,12 @@ from enum import Enum
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
+from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import Value, Vector
 from m3dc.syntax.parse import ast
 from m3dc.text import long_tables
-from tree_sitter_m3d.table import LANGUAGE
 
 from .comments import comments
 from .text import Span

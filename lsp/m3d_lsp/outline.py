@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
+from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analysis
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE
 
 from .comments import Comments, comments
 from .text import Span

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 from itertools import count
 
-from tree_sitter_m3d import example
-from tree_sitter_m3d.phrases import written
-from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement, Table
+from m3d_language import example
+from m3d_language.phrases import written
+from m3d_language.table import LANGUAGE, Argument, Block, Default, Statement, Table
 
 _STOP = re.compile(r"\$\{\d+:([^}]*)\}|\$\d")
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from m3d_language.table import Default
 from m3dc.meaning.transform import IDENTITY
 from m3dc.meaning.values import Record, Value
-from tree_sitter_m3d.table import Default
 
 # Parts of a block that are shown; of more only the number is.
 MOST_PARTS = 3

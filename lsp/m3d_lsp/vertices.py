@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from m3d_language import blank_comments
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import TableValue
-from tree_sitter_m3d import blank_comments
 
 from .standing import Standing, standing
 from .text import Span

@@ -15,10 +15,10 @@ from marks import without_marks
 from mutations import mutations
 
 import m3dc
+from m3d_language.table import LANGUAGE
 from m3dc.diagnostics import all_certain
 from m3dc.diagnostics.catalogue import CATALOGUE
 from m3dc.diagnostics.spelling import certain, nearest
-from tree_sitter_m3d.table import LANGUAGE
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 DIAGNOSTICS = Path(__file__).parent / "diagnostics"

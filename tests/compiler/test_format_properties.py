@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 from tree_sitter import Language, Node, Parser
 
+import m3d_language
 import m3dc
-import tree_sitter_m3d
+from m3d_language.formal import parser
+from m3d_language.table import LANGUAGE
 from m3dc.format import Edit, FormatError, edits, format, format_range
 from m3dc.format.diff import unified_diff
 from m3dc.ir import TABLES
-from tree_sitter_m3d.formal import parser
-from tree_sitter_m3d.table import LANGUAGE
 
 SPELLINGS: dict[str, st.SearchStrategy[str]] = {
     "IDENTIFIER": st.sampled_from(["x", "y", "the_ground", "e5", "a_name_of_more_than_thirty_two_characters"]),
@@ -86,7 +86,7 @@ def leaves(data: bytes) -> list[bytes]:
         else:
             found.extend(re.split(rb"\s+", text))
 
-    visit(Parser(Language(tree_sitter_m3d.language())).parse(data).root_node)
+    visit(Parser(Language(m3d_language.language())).parse(data).root_node)
     return found
 
 

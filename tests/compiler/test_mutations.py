@@ -20,8 +20,8 @@ from typing import NamedTuple
 from mutations import Mutation, mutations
 
 import m3dc
-from tree_sitter_m3d.comments import blank_comments
-from tree_sitter_m3d.formal import parser
+from m3d_language.comments import blank_comments
+from m3d_language.formal import parser
 
 EXAMPLES = Path(__file__).parent.parent.parent / "examples"
 NAMES = ("merman", "runway", "wheel", "two-balls", "cylinder-and-cone")

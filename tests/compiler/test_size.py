@@ -12,8 +12,8 @@ from collections.abc import Callable
 import pytest
 
 import m3dc
+from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analyser
-from tree_sitter_m3d.table import LANGUAGE
 
 FOREST = "VARIABLES { SOLID a; } a = { " + "SPHERE { } " * 2000 + "} "
 

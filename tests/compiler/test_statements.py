@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import m3dc
+from m3d_language.table import LANGUAGE, Block
 from m3dc.ir import LightKind, SceneIR, TextureKind
-from tree_sitter_m3d.table import LANGUAGE, Block
 
 SPHERE = "SPHERE { }"
 PROFILE = "PROFILE { 0 1 10 2 20 4 }"

@@ -13,13 +13,13 @@ from typing import NamedTuple
 import pytest
 from tree_sitter import Language, Parser
 
-import tree_sitter_m3d
+import m3d_language
 
 CORPUS = Path(__file__).parents[2] / "grammar/test/corpus"
 CASE = re.compile(
     r"^=+\n(?P<title>.+)\n=+\n\n(?P<text>(?s:.*?))\n\n---\n\n(?P<tree>(?s:.*?))\n*(?=^=+\n.+\n=+\n|\Z)", re.MULTILINE
 )
-PARSER = Parser(Language(tree_sitter_m3d.language()))
+PARSER = Parser(Language(m3d_language.language()))
 
 
 class Case(NamedTuple):

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lark.exceptions import UnexpectedInput
 
-from tree_sitter_m3d import blank_comments
-from tree_sitter_m3d.formal import END, first_error, parser
-from tree_sitter_m3d.table import LANGUAGE, Block
+from m3d_language import blank_comments
+from m3d_language.formal import END, first_error, parser
+from m3d_language.table import LANGUAGE, Block
 
 SENTENCES = [
     "",

@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 from tree_sitter import Language, Parser
 
-import tree_sitter_m3d
-from tree_sitter_m3d.formal import first_error, parser
-from tree_sitter_m3d.table import LANGUAGE
+import m3d_language
+from m3d_language.formal import first_error, parser
+from m3d_language.table import LANGUAGE
 
 ROOT = Path(__file__).parents[2]
 GRAMMAR = ROOT / "grammar"
@@ -83,7 +83,7 @@ def test_the_keywords_are_those_of_appendix_a() -> None:
 
 @pytest.mark.parametrize("keyword", KEYWORDS)
 def test_the_tree_sitter_grammar_knows_it(keyword: str) -> None:
-    language = Language(tree_sitter_m3d.language())
+    language = Language(m3d_language.language())
     assert language.id_for_node_kind(keyword, False) is not None
     assert Parser(language).parse(f"x = {keyword}".encode()).root_node.has_error
 
@@ -96,7 +96,7 @@ def test_the_formal_grammar_knows_every_keyword() -> None:
 
 def test_the_highlight_query_knows_every_keyword() -> None:
     for keyword in KEYWORDS:
-        assert f'"{keyword}"' in tree_sitter_m3d.HIGHLIGHTS_QUERY
+        assert f'"{keyword}"' in m3d_language.HIGHLIGHTS_QUERY
 
 
 def test_the_textmate_grammar_knows_every_keyword() -> None:
@@ -149,14 +149,12 @@ def test_the_node_types_that_the_compiler_relies_on() -> None:
 
 
 def test_importing_the_package_is_cheap() -> None:
-    code = (
-        "import sys, tree_sitter_m3d; print([m for m in ('lark', 'numpy', 'json', 'tree_sitter') if m in sys.modules])"
-    )
+    code = "import sys, m3d_language; print([m for m in ('lark', 'numpy', 'json', 'tree_sitter') if m in sys.modules])"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "[]"
 
 
 def test_an_unknown_attribute_is_an_error() -> None:
     with pytest.raises(AttributeError, match="SONGS_QUERY"):
-        _ = tree_sitter_m3d.SONGS_QUERY
-    assert "HIGHLIGHTS_QUERY" in dir(tree_sitter_m3d)
+        _ = m3d_language.SONGS_QUERY
+    assert "HIGHLIGHTS_QUERY" in dir(m3d_language)

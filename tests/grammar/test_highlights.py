@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from tree_sitter import Language, Node, Parser, Query, QueryCursor
 
-import tree_sitter_m3d
+import m3d_language
 
 HIGHLIGHT = Path(__file__).parents[2] / "grammar/test/highlight"
-LANGUAGE = Language(tree_sitter_m3d.language())
+LANGUAGE = Language(m3d_language.language())
 ASSERTION = re.compile(r"^/\*\s*(?P<mark>\^|<-)\s*(?P<capture>[\w.]+)")
 
 
@@ -33,7 +33,7 @@ def assertions(text: str) -> Iterator[tuple[int, int, str]]:
 @pytest.mark.parametrize("file", sorted(HIGHLIGHT.glob("*.m3d")), ids=lambda file: file.name)
 def test_highlights_are_as_the_file_says(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
-    found = captures(tree_sitter_m3d.HIGHLIGHTS_QUERY, text)
+    found = captures(m3d_language.HIGHLIGHTS_QUERY, text)
     checked = 0
     for row, column, capture in assertions(text):
         at = (row, column)
@@ -46,17 +46,17 @@ def test_highlights_are_as_the_file_says(file: Path) -> None:
 @pytest.mark.parametrize("name", ["HIGHLIGHTS", "FOLDS", "INDENTS", "LOCALS", "TAGS"])
 def test_every_query_captures_something(name: str) -> None:
     text = (HIGHLIGHT / "scene.m3d").read_text(encoding="utf-8")
-    assert captures(getattr(tree_sitter_m3d, f"{name}_QUERY"), text)
+    assert captures(getattr(m3d_language, f"{name}_QUERY"), text)
 
 
 def test_no_node_is_highlighted_twice() -> None:
     text = (HIGHLIGHT / "scene.m3d").read_text(encoding="utf-8")
-    nodes = [node.id for nodes in captures(tree_sitter_m3d.HIGHLIGHTS_QUERY, text).values() for node in nodes]
+    nodes = [node.id for nodes in captures(m3d_language.HIGHLIGHTS_QUERY, text).values() for node in nodes]
     assert len(nodes) == len(set(nodes))
 
 
 def test_definitions_and_references_of_a_variable() -> None:
-    found = captures(tree_sitter_m3d.TAGS_QUERY, "VARIABLES { SPHERE ball; }\nball = other\nSOLID { SPHERE ball }")
+    found = captures(m3d_language.TAGS_QUERY, "VARIABLES { SPHERE ball; }\nball = other\nSOLID { SPHERE ball }")
     names = {name: [node.start_point.row for node in nodes] for name, nodes in found.items()}
     assert names["definition.constant"] == [0]
     assert sorted(names["name"]) == [0, 1, 1, 2]

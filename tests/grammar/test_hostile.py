@@ -9,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tree_sitter import Language, Parser, Tree
 
+import m3d_language
 import m3dc
-import tree_sitter_m3d
+from m3d_language.formal import first_error
 from m3dc.syntax.parse import HEAD
-from tree_sitter_m3d.formal import first_error
 
 DEEP = 10_000
-PARSER = Parser(Language(tree_sitter_m3d.language()))
+PARSER = Parser(Language(m3d_language.language()))
 TEXTS = {
     "braces": b"SOLID { " * DEEP,
     "closed braces": b"SOLID { " * DEEP + b"} " * DEEP,

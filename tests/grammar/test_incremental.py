@@ -6,9 +6,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from tree_sitter import Language, Node, Parser, Point, Tree
 
-import tree_sitter_m3d
+import m3d_language
 
-PARSER = Parser(Language(tree_sitter_m3d.language()))
+PARSER = Parser(Language(m3d_language.language()))
 SCENE = b"""\
 /* A scene /* with */ comments */
 VARIABLES { NUMBER a, b; SPHERE ball; }

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tree_sitter_m3d.formal import END, first_error
-from tree_sitter_m3d.prefix import read_prefix
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.formal import END, first_error
+from m3d_language.prefix import read_prefix
+from m3d_language.table import LANGUAGE
 
 SPHERE = {"CENTER", "RADIUS", "TRANSFORM", "RBRACE"}
 TOP = {"SCENE", "SOLID", "LIGHT", "VARIABLES", "IDENTIFIER", END}

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tree_sitter_m3d import Stop, TableData, only_numbers, read_table
+from m3d_language import Stop, TableData, only_numbers, read_table
 
 LAYOUTS = [("n", "nnn"), ("n", "nnnvvv"), ("", "nn"), ("", "nnvv"), ("nn", "v"), ("n", "v"), ("v", "n")]
 

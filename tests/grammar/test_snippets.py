@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 import m3d_render
 import m3dc
+from m3d_language.table import LANGUAGE
 from m3dc.format import format
-from tree_sitter_m3d.table import LANGUAGE
 
 ROOT = Path(__file__).parents[2]
 SNIPPETS: dict[str, dict[str, str | list[str]]] = json.loads(

@@ -15,11 +15,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
 
+from m3d_language.formal import first_error, parser
+from m3d_language.table import LANGUAGE
 from m3dc.diagnostics.catalogue import CATALOGUE
 from m3dc.meaning.check import structural_faults
 from m3dc.text.source import Source
-from tree_sitter_m3d.formal import first_error, parser
-from tree_sitter_m3d.table import LANGUAGE
 
 # How a terminal is spelt. A blank follows each, so that no two become one; blanks are taken out again below.
 SPELLINGS: dict[str, st.SearchStrategy[str]] = {

@@ -10,10 +10,10 @@ from editor import Editor, Scene
 from lsprotocol import types
 
 import m3dc
+from m3d_language import blank_comments
+from m3d_language.formal import first_error
+from m3d_language.table import LANGUAGE
 from m3d_lsp import snippets
-from tree_sitter_m3d import blank_comments
-from tree_sitter_m3d.formal import first_error
-from tree_sitter_m3d.table import LANGUAGE
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 

@@ -12,10 +12,10 @@ from scene_builder import SceneBuilder, view
 import m3d_render
 import m3dc
 from fuzz import kernel
+from m3d_language.table import LANGUAGE
 from m3d_render import RenderOptions
 from m3d_render.optics import trace_paths
 from m3dc.ir import Ambient, LightKind, Triple
-from tree_sitter_m3d.table import LANGUAGE
 
 SCENES = Path(__file__).parent / "scenes"
 BEYOND_REACH = {"ball-beyond-reach", "light-beyond-reach"}

@@ -18,9 +18,9 @@ from array_types import Floats
 
 import m3d_render
 import m3dc
+from m3d_language.table import LANGUAGE
 from m3d_render import Picture
 from m3dc.ir import SceneIR, Triple
-from tree_sitter_m3d.table import LANGUAGE
 
 BLACK_TO_WHITE = "COLOR < 1, 1, 1 >"
 SIZE = 40

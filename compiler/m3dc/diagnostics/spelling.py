@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from difflib import get_close_matches
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 _ALIKE = 0.7  # of difflib's measure
 _SHORTEST = 4  # a shorter word is one edit away from too many others

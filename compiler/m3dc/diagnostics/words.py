@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tree_sitter_m3d.table import LANGUAGE, Block, Statement
+from m3d_language.table import LANGUAGE, Block, Statement
 
 CAPITALS = "keywords are in capitals"
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from tree_sitter import Node, Tree
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Diagnostic, Findings
 from ..syntax.parse import parse

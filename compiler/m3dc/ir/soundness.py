@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from .scene import SceneIR
 from .tables import PRIMITIVE_TABLE, TABLES, Column, PrimitiveKind, Table, Within

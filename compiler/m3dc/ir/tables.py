@@ -17,7 +17,7 @@ from typing import Annotated, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..text.span import Span
 

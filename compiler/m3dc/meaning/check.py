@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from tree_sitter_m3d import Stop, read_table
-from tree_sitter_m3d import table as language
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language import Stop, read_table
+from m3d_language import table as language
+from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings, Fix, Related
 from ..diagnostics.near import Words

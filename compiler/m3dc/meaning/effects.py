@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
-from tree_sitter_m3d.table import Default
+from m3d_language.table import Default
 
 from ..diagnostics import Findings
 from ..text.span import Span

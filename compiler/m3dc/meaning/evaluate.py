@@ -14,8 +14,8 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from tree_sitter_m3d import table as language
-from tree_sitter_m3d.table import LANGUAGE, Default
+from m3d_language import table as language
+from m3d_language.table import LANGUAGE, Default
 
 from ..diagnostics import Findings, Fix
 from ..syntax import ast

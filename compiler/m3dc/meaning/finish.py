@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings
 from . import mesh

@@ -7,8 +7,8 @@ whether a name is declared with the right type: what did not pass is not in it.
 from collections.abc import Iterator
 from typing import NamedTuple, TypeAlias
 
-from tree_sitter_m3d import TableData
-from tree_sitter_m3d import table as language
+from m3d_language import TableData
+from m3d_language import table as language
 
 from ..syntax.ast import Argument, Keyword, Name
 from ..text.span import Span

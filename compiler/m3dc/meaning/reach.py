@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings, Related
 from .transform import IDENTITY, Matrix, Transform

@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from tree_sitter_m3d.table import LANGUAGE, Default
+from m3d_language.table import LANGUAGE, Default
 
 from ..text.span import Span
 from .transform import IDENTITY, Transform

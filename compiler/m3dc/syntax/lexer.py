@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Callable
 from typing import NamedTuple
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..text.span import Span
 

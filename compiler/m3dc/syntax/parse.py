@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from tree_sitter import Language, Node, Parser, Point, Range, Tree
 
-import tree_sitter_m3d
-from tree_sitter_m3d.comments import outermost
-from tree_sitter_m3d.table import LANGUAGE
+import m3d_language
+from m3d_language.comments import outermost
+from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Diagnostic, Findings, Related
 from ..text import long_tables
@@ -28,7 +28,7 @@ from . import ast, numerals
 if TYPE_CHECKING:
     from .recovery import Read
 
-_GRAMMAR = Language(tree_sitter_m3d.language())
+_GRAMMAR = Language(m3d_language.language())
 _COMMENT_MARK = re.compile(rb"/\*|\*/")
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f\x7f]")
 

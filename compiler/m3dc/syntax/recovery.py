@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 from tree_sitter import Node
 
-from tree_sitter_m3d.comments import blank_comments
-from tree_sitter_m3d.table import LANGUAGE, Block, Statement
+from m3d_language.comments import blank_comments
+from m3d_language.table import LANGUAGE, Block, Statement
 
 from ..diagnostics import Findings, Fix, Related
 from ..diagnostics.spelling import certain, nearest

@@ -6,8 +6,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from tree_sitter_m3d.comments import blank_comments
-from tree_sitter_m3d.table import Argument, Table
+from m3d_language.comments import blank_comments
+from m3d_language.table import Argument, Table
 
 from ..diagnostics import Fix
 from ..text.span import Span

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_left, bisect_right
 
-from tree_sitter_m3d.comments import outermost
+from m3d_language.comments import outermost
 
 from . import long_tables
 from .span import Span

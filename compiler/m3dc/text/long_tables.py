@@ -6,7 +6,7 @@ byte of it is out of place, and the syntax tree is the same with or without it (
 
 from __future__ import annotations
 
-from tree_sitter_m3d import only_numbers
+from m3d_language import only_numbers
 
 from .span import Span
 

@@ -16,8 +16,8 @@ from typing import Any
 
 from lsprotocol import types
 
+from m3d_language.table import LANGUAGE
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE
 
 from ..names import Names, Role, names
 from ..registry import request

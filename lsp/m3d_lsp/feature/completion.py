@@ -16,11 +16,11 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
+from m3d_language.formal import END
+from m3d_language.phrases import written
+from m3d_language.table import LANGUAGE, Argument, Block, Default, Statement
 from m3dc.meaning.values import Value
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.formal import END
-from tree_sitter_m3d.phrases import written
-from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default, Statement
 
 from .. import cursor, explain, snippets
 from ..comments import about_variable, comments

@@ -10,9 +10,9 @@ import re
 
 from lsprotocol import types
 
+from m3d_language.table import LANGUAGE
 from m3dc.format import FormatError, format_range
 from m3dc.format.layout import INDENT
-from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import comments
 from ..registry import request

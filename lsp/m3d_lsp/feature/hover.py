@@ -13,10 +13,10 @@ import numpy as np
 from lsprotocol import types
 from tree_sitter import Node
 
+from m3d_language.table import LANGUAGE, Statement, Table
 from m3dc.meaning import program
 from m3dc.meaning.transform import unit
 from m3dc.meaning.values import Record, Value, Vector
-from tree_sitter_m3d.table import LANGUAGE, Statement, Table
 
 from .. import arguments, cursor, explain, resolved, rows
 from ..colours import KIND, color_variables

@@ -23,11 +23,11 @@ import numpy as np
 from lsprotocol import types
 from numpy.typing import NDArray
 
+from m3d_language import blank_comments
+from m3d_language.table import Argument
 from m3dc.meaning import program
 from m3dc.meaning.values import Record, Value
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d import blank_comments
-from tree_sitter_m3d.table import Argument
 
 from ..explain import argument_name
 from ..names import Names, Role, names

@@ -9,7 +9,7 @@ import re
 
 from lsprotocol import types
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..names import Names, Occurrence, names
 from ..registry import RefusalError, request

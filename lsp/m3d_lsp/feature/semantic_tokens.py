@@ -21,9 +21,9 @@ from lsprotocol import types
 from numpy.typing import NDArray
 from tree_sitter import Language, Query, QueryCursor
 
-import tree_sitter_m3d
+import m3d_language
+from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analysis
-from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import comments
 from ..names import Role, names
@@ -53,7 +53,7 @@ LEGEND = types.SemanticTokensLegend([kind.value for kind in KINDS.values()], MOD
 
 LONG = 20_000  # bytes of a table of which not each number is marked
 
-_QUERY = Query(Language(tree_sitter_m3d.language()), tree_sitter_m3d.HIGHLIGHTS_QUERY)
+_QUERY = Query(Language(m3d_language.language()), m3d_language.HIGHLIGHTS_QUERY)
 _KIND = {capture: number for number, capture in enumerate(KINDS)}
 _BIT = {name: 1 << number for number, name in enumerate(MODIFIERS)}
 _NUMERAL = re.compile(rb"[^\s<>,]+")

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 from lsprotocol import types
 
+from m3d_language.phrases import allowed
+from m3d_language.table import LANGUAGE, Argument, Bounds, Statement, Table
 from m3dc.analysis import Analysis
-from tree_sitter_m3d.phrases import allowed
-from tree_sitter_m3d.table import LANGUAGE, Argument, Bounds, Statement, Table
 
 from .. import cursor
 from ..cursor import Cursor

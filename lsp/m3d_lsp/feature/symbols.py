@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
 
-from tree_sitter_m3d.table import LANGUAGE
+from m3d_language.table import LANGUAGE
 
 from ..client import Client
 from ..outline import Entry, outline

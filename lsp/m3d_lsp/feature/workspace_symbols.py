@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lsprotocol import types
 
+from m3d_language.table import LANGUAGE
 from m3dc import Source
 from m3dc.diagnostics import Findings
 from m3dc.syntax.parse import parse
-from tree_sitter_m3d.table import LANGUAGE
 
 from ..comments import Comments
 from ..documents import file_path

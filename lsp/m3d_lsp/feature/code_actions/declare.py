@@ -10,10 +10,10 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
+from m3d_language.table import LANGUAGE, Argument, Block, Default
 from m3dc import Diagnostic
 from m3dc.meaning.values import spelled
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE, Argument, Block, Default
 
 from ...names import names
 from .action import Action, Site

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import count
 
+from m3d_language.table import LANGUAGE
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE
 
 from ...comments import comments
 from ...names import names

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
+from m3d_language.table import LANGUAGE
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE
 
 from .action import Action, Edit, Site
 from .declaring import declared, new_before, unused_name

@@ -6,8 +6,8 @@ SURFACE came before it, or came along with a copied SOLID.
 
 from __future__ import annotations
 
+from m3d_language.table import LANGUAGE
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d.table import LANGUAGE
 
 from ...names import Role, names
 from .action import Site

@@ -14,10 +14,10 @@ import numpy as np
 from lsprotocol import types
 from numpy.typing import NDArray
 
+from m3d_language import blank_comments
 from m3dc.meaning.transform import unit
 from m3dc.meaning.values import Mesh, Record, spelled
 from m3dc.syntax.parse import ast
-from tree_sitter_m3d import blank_comments
 
 from ...standing import standing
 from .action import Action, Edit, Site

@@ -1,14 +1,14 @@
 """The Mirage3D scene language: its table, its tree-sitter grammar and its formal grammar.
 
->>> import tree_sitter, tree_sitter_m3d
->>> parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_m3d.language()))
+>>> import tree_sitter, m3d_language
+>>> parser = tree_sitter.Parser(tree_sitter.Language(m3d_language.language()))
 
 - `language()` is the tree-sitter language; `HIGHLIGHTS_QUERY`, `FOLDS_QUERY`, `INDENTS_QUERY`, `LOCALS_QUERY` and
   `TAGS_QUERY` are the texts of its queries.
 - `read_table` reads the numbers of a big table; `only_numbers` says whether a stretch of text holds nothing else.
 - `blank_comments` makes spaces of comments.
-- `tree_sitter_m3d.table.LANGUAGE` describes every block and statement.
-- `tree_sitter_m3d.formal` says where a text stops being a sentence of the language, and what could stand there.
+- `m3d_language.table.LANGUAGE` describes every block and statement.
+- `m3d_language.formal` says where a text stops being a sentence of the language, and what could stand there.
 
 Everything is loaded when it is first asked for, so that the table can be read without the compiled part.
 """

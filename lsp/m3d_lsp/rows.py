@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from m3dc.ir.lower import lower
 from m3dc.meaning import program
-from m3dc.meaning.evaluate import World
 from m3dc.meaning.values import Record, TableValue
 
+from .air import EARTH_CURVATURE, Air
 from .markdown import shown
 from .standing import Standing, in_scene
 from .summary import number, vector
@@ -60,7 +59,7 @@ def facts(here: Standing, offset: int, *, images: bool) -> str:
         case "FACETS" | "SFACETS":
             return _facet(here, row)
         case "PROFILE":
-            return _profile(here.innermost, row, here)
+            return _profile(here.innermost, row)
         case "COLORS":
             start, end = (number(value) for value in values[:2])
             first, last = (shown(values[columns], images=images) for columns in (slice(2, 5), slice(5, 8)))
@@ -88,30 +87,25 @@ def _facet(here: Standing, row: Row) -> str:
     return "\n".join(lines)
 
 
-def _profile(mirage: Record, row: Row, here: Standing) -> str:
+def _profile(mirage: Record, row: Row) -> str:
     """The air between a point of the profile and its neighbours: the gradient of temperature, and how a level ray is
-    curved there (thesis eq. 2.3)."""
-    from m3d_render.optics import EARTH_CURVATURE, air_layers
-    from m3d_render.rendering import SceneError
-
-    scene = Record("SCENE", (0, 0))
-    scene.nested["MIRAGE"] = mirage
+    curved there."""
+    heights, temperatures = row.table.rows.T.tolist()
     try:
-        air = air_layers(lower(World(scene, (), (), ()), "", here.places))
-    except SceneError:
+        air = Air(heights, temperatures)
+    except ValueError:
         return ""
-    rows = row.table.rows
-    parts = [f"{number(rows[row.place][1])} °C at {number(rows[row.place][0])} m"]
+    parts = [f"{number(temperatures[row.place])} °C at {number(heights[row.place])} m"]
     for name, low in (("Above", row.place), ("Below", row.place - 1)):
-        if not 0 <= low < len(rows) - 1:
+        if not 0 <= low < len(heights) - 1:
             continue
-        (z0, t0), (z1, t1) = rows[low].tolist(), rows[low + 1].tolist()
-        parts.append(f"**{name}**, {number(z0)} to {number(z1)} m:\n")
-        parts[-1] += f"\n- temperature gradient dT/dz = {(t1 - t0) / (z1 - z0):+.4g} K/m"
-        if low >= len(air.bottom):
+        layer = air.layer(low)
+        parts.append(f"**{name}**, {number(layer.bottom)} to {number(layer.top)} m:\n")
+        parts[-1] += f"\n- temperature gradient dT/dz = {layer.gradient:+.4g} K/m"
+        if layer.bottom >= mirage.number("ELEVATION"):
             parts[-1] += "\n- above the ELEVATION of the MIRAGE, rays go on straight"
             continue
-        curvature, effective = float(air.curvature[low]), float(air.effective[low])
+        curvature, effective = layer.curvature, layer.curvature - EARTH_CURVATURE
         parts[-1] += f"\n- ray curvature κ = {curvature:.3e} 1/m, radius {_radius(curvature)}"
         parts[-1] += f"\n- less the earth's {EARTH_CURVATURE:.3e}: {effective:.3e} 1/m, radius {_radius(effective)}"
     return "\n\n".join(parts)

@@ -1,14 +1,20 @@
-"""Words that are nearly right: the known one that was probably meant, and whether it certainly was."""
+"""Words that are nearly right: which known one was probably meant, and whether it certainly was."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from bisect import bisect_left
+from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
 from m3d_language.table import LANGUAGE
 
 _ALIKE = 0.7  # of difflib's measure
 _SHORTEST = 4  # a shorter word is one edit away from too many others
+
+# Among so many names each is compared. Among more only those that stand next to the misspelt one in an alphabet, read
+# forwards or backwards: what is written right has its beginning or its end in common with what was meant.
+_FEW = 60
+_NEIGHBOURS = 8
 
 
 def nearest(word: str, known: Collection[str]) -> str | None:
@@ -43,3 +49,25 @@ def _is_one_slip(word: str, other: str) -> bool:
         return word[start:] == other[start + 1 :]
     swapped = word[start + 1 : start + 2] + word[start : start + 1]
     return word[start + 1 :] == other[start + 1 :] or swapped + word[start + 2 :] == other[start:]
+
+
+class Names:
+    """Names that there are, such as those of variables; there may be thousands."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._all = list(names)
+        self._forwards = sorted(self._all) if len(self._all) > _FEW else []
+        self._backwards = sorted(name[::-1] for name in self._all) if len(self._all) > _FEW else []
+
+    def nearest(self, name: str) -> str | None:
+        """The name that is most like another, if one is like it at all."""
+        candidates = self._all
+        if self._forwards:
+            candidates = _around(self._forwards, name)
+            candidates += [other[::-1] for other in _around(self._backwards, name[::-1])]
+        return next(iter(get_close_matches(name, candidates, 1, _ALIKE)), None)
+
+
+def _around(names: list[str], name: str) -> list[str]:
+    at = bisect_left(names, name)
+    return names[max(at - _NEIGHBOURS, 0) : at + _NEIGHBOURS]

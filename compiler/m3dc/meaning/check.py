@@ -17,8 +17,7 @@ from m3d_language import table as language
 from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings, Fix, Related
-from ..diagnostics.near import Words
-from ..diagnostics.spelling import certain, nearest
+from ..diagnostics.spelling import Names, certain, nearest
 from ..diagnostics.words import CAPITALS, place_of, statement_of, takes
 from ..syntax import ast, numerals
 from ..syntax.table_faults import layout_of, table_fault
@@ -78,7 +77,7 @@ class Checker:
         self._said_count = False  # of the current block, that a table lacks its count
         self._around: list[str] = []  # keywords of the blocks around a member, outermost first
         self.known: Ledger[Known] = Ledger()
-        self._words = Words(())
+        self._known = Names(())
         self._words_known = 0
         for name in lost:
             self.known[_lost(name)] = Known("", (0, 0))
@@ -200,8 +199,8 @@ class Checker:
         entries = self.known.items()
         if len(self.known) != self._words_known:  # names are only ever added
             self._words_known = len(self.known)
-            self._words = Words(other for other, _ in entries if other.isidentifier() and other not in _KEYWORDS)
-        return self._words.nearest(name)
+            self._known = Names(other for other, _ in entries if other.isidentifier() and other not in _KEYWORDS)
+        return self._known.nearest(name)
 
     def _lookup(self, name: ast.Name, wanted: str = "", also: str = "") -> Known | None:
         """What is known of a variable; reports an undeclared name, and what there is to say of it `also`."""

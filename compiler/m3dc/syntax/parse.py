@@ -1,7 +1,7 @@
 """From text to syntax tree: `parse` takes any text and gives the items that can be read, and what is wrong in form.
 
 tree-sitter builds the tree, whatever the text. A stretch in which it met an error is read again, item by item, to say
-what is wrong and what was probably meant (recovery.py).
+what is wrong and what was probably meant (recovery/).
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from m3d_language.table import LANGUAGE
 
-from ..text.span import Span
+from ...text.span import Span
 
 _BLANKS = re.compile(rb"[ \t\r\n\f\v]*")
 _TOKEN = re.compile(
@@ -31,6 +31,8 @@ _TOKEN = re.compile(
 _BEFORE = re.compile(rb"(?:\A|[\r\n{}])[ \t]*\Z")
 _COMMENT_MARK = re.compile(rb"/\*|\*/")
 _NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)+")
+
+CLOSERS = {"(": ")", "[": "]", "{": "}"}
 
 
 class Token(NamedTuple):

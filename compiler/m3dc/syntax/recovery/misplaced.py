@@ -1,0 +1,116 @@
+"""What can stand nowhere in a scene, such as marks, texts in quotes and directives of other languages."""
+
+from __future__ import annotations
+
+from m3d_language.table import LANGUAGE, Block
+
+from ...diagnostics.spelling import certain
+from ...diagnostics.words import members
+from . import skip, wording
+from .cursor import Cursor
+from .lexer import CLOSERS, Token
+
+
+def pass_misplaced(cursor: Cursor, block: Block | None, code: str = "") -> None:
+    """Pass what can not stand here, and say so."""
+    token = cursor.next()
+    after = cursor.peek()
+    if (
+        token.text in ("-", "+", "*", "\u2022")
+        and after.kind in ("keyword", "word")
+        and (token.first or not cursor.open)
+    ):
+        cursor.faults.superfluous(token, "statements follow one another without a mark before them", sure=False)
+        return
+    if token.text in (".", "$", "@", "\\") and after.kind in ("keyword", "word") and not after.gap:
+        cursor.next()
+        text = token.text + after.text
+        says = f"found {text!r}; {wording.LETTERS}"
+        meant = certain(after.text, members(block)) if token.text == "." else None
+        says += f"; did you mean {meant}?" if meant else ""
+        cursor.faults.invalid(block, (token.start, after.end), says)
+        cursor.doubtful = True
+        skip.unknown(cursor) if cursor.open else skip.lines(cursor)
+        return
+    if token.kind == ";":
+        cursor.faults.superfluous(token, "nothing ends with a ; but a declaration in VARIABLES")
+    elif token.kind == ",":
+        cursor.faults.superfluous(token, "statements and blocks follow one another without a comma")
+    elif token.text == "*/":
+        detail = "this closes a comment that was never opened"
+        cursor.faults.add(
+            "M3D0105", token.span, detail, edits=[(token.span, "")], title="Remove it", kind="*/", sure=False
+        )
+    elif token.kind == "hash":
+        _directive(cursor, token)
+    elif token.kind == "string":
+        pass_quoted(cursor, token, block)
+    else:
+        says = wording.found(token)
+        if token.kind == "{":
+            says += "; a block begins with its keyword"
+        elif token.kind in ("number", "<"):
+            says += "; a value stands after its keyword"
+        elif token.kind == "name":
+            says += f"; {wording.LETTERS}"
+        elif (number := wording.other_number(token.text)) is not None:
+            says += f"; a number is written with the digits 0 to 9: {number}"
+        elif token.text == "~":
+            says += "; a blank stands between a keyword and its value"
+        elif token.text == "-" and not cursor.open:
+            says += "; a scene needs no marks between its parts"
+        elif token.kind == "other" and token.text not in CLOSERS.values():
+            says += "; it has no meaning in a scene: remove it"
+        if code:
+            cursor.faults.add(code, token.span, says)
+        else:
+            cursor.faults.invalid(block, token.span, says)
+        cursor.doubtful = True
+        if token.kind == "{":
+            cursor.push_back(token)
+            skip.group(cursor)
+        elif cursor.around and token.kind == "other":
+            skip.unknown(cursor)
+        elif not cursor.around and not cursor.open:
+            skip.lines(cursor)
+
+
+def _directive(cursor: Cursor, token: Token) -> None:
+    """`#declare name = value;` and its like."""
+    word = token.text[1:].lower()
+    if word in ("declare", "local", "define", "let", "var", "const"):
+        if cursor.peek().kind in ("word", "keyword"):
+            name = cursor.next().text
+            cursor.names.add(name)
+            says = (
+                f"{wording.found(token)}; a variable is declared in VARIABLES {{ NUMBER {name}; }} and then assigned to"
+            )
+        else:
+            says = f"{wording.found(token)}; a variable is declared in VARIABLES"
+    elif word in LANGUAGE.elsewhere:
+        says = f"{wording.found(token)}; {LANGUAGE.elsewhere[word]}"
+    elif not cursor.open and token.first:
+        says = f"{wording.found(token)}; a comment stands between /* and */"
+    else:
+        says = wording.found(token)
+    cursor.faults.add("M3D0107", token.span, says)
+    cursor.doubtful = True
+    while (next_ := cursor.peek()).kind not in ("end", "}", "keyword") and not next_.first:
+        if next_.kind == "{":
+            skip.group(cursor)
+        elif cursor.next().kind == ";":
+            return
+
+
+def pass_quoted(cursor: Cursor, token: Token, block: Block | None) -> None:
+    """A text in quotes: the name of something, as other languages have it."""
+    if token.kind == "name":
+        cursor.faults.invalid(
+            block, token.span, f"{wording.found(token)}; names are of the letters A to Z, digits and underscores"
+        )
+        cursor.doubtful = True
+        return
+    inner = token.text.strip("\"'\u201c\u201d").strip()
+    edits = [(token.span, f"/* {inner} */")] if "*/" not in inner and "/*" not in inner and inner.isascii() else None
+    says = f"found {wording.shown(token)}; what a thing is called stands in a comment"
+    cursor.faults.invalid(block, token.span, says, edits=edits, title="Make a comment of it")

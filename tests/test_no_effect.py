@@ -59,7 +59,7 @@ def test_all_textures_and_primitives_are_known() -> None:
     for block, rules in RULES.items():
         for rule in rules:
             assert rule.keywords.keys() <= LANGUAGE.blocks[block].statements.keys()
-            assert rule.code in CATALOGUE
+            assert rule.diagnostic in CATALOGUE.values()
 
 
 @pytest.mark.parametrize("texture", TEXTURES)

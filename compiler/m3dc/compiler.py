@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeVar
 
-from .diagnostics import Diagnostic, Findings
+from .diagnostics import Diagnostic, Findings, catalogue
 from .diagnostics.directives import without_allowed, wrong_directives
 from .files.collection import paused
 from .ir import SceneIR
@@ -74,15 +74,15 @@ def in_order(diagnostics: Iterable[Diagnostic], source: Source) -> tuple[Diagnos
 
 def _with_cause(found: list[Diagnostic]) -> list[Diagnostic]:
     """The diagnostics, where a variable without a value is out of range with both in one."""
-    unassigned = {d.span: d for d in found if d.code == "M3D0504"}
-    wrong = {d.span for d in found if d.code == "M3D0401"} & unassigned.keys()
+    unassigned = {d.span: d for d in found if d.code == catalogue.UNASSIGNED_VARIABLE.code}
+    wrong = {d.span for d in found if d.code == catalogue.OUT_OF_RANGE.code} & unassigned.keys()
     if not wrong:
         return found
     whole: list[Diagnostic] = []
     for diagnostic in found:
         if diagnostic.span not in wrong:
             whole.append(diagnostic)
-        elif diagnostic.code != "M3D0504":
+        elif diagnostic.code != catalogue.UNASSIGNED_VARIABLE.code:
             cause = unassigned[diagnostic.span]
             detail = f"{diagnostic.detail}; {cause.detail}"
             whole.append(diagnostic._replace(detail=detail, related=(*diagnostic.related, *cause.related)))

@@ -20,12 +20,9 @@ from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
 from m3dc import compile as compile_scene
-from m3dc.diagnostics import report
+from m3dc.diagnostics import catalogue, report
 from m3dc.files.interrupt import Interrupt
 from m3dc.ir import SceneIR
-
-WRONG_NORMALS = "M3D0511"
-"""The compiler's code for facets whose normals point to the wrong side."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -143,7 +140,8 @@ def _check_normals(scene: str) -> int:
     if scene.lower().endswith(".m3ir"):
         raise CommandError(USAGE_ERROR, f"{scene}: normals are checked in the scene's text; give the .m3d")
     result = compile_scene(command.read(scene), scene)
-    shown = [found for found in result.diagnostics if found.code == WRONG_NORMALS or found.severity == "error"]
+    wrong = catalogue.NORMAL_ON_WRONG_SIDE.code
+    shown = [found for found in result.diagnostics if found.code == wrong or found.severity == "error"]
     report.print_human(shown, result.source, sys.stderr)
     return SCENE_ERROR if shown else FINE
 

@@ -22,7 +22,7 @@ from m3d_render import command, wireframe
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR
 from m3d_render.picture import to_bytes
 from m3d_render.rendering import Cancelled, SceneError, prepare
-from m3dc.diagnostics import report
+from m3dc.diagnostics import catalogue, report
 from m3dc.diagnostics.levels import Levels
 from m3dc.files.artefact import replacing, write_file
 from m3dc.files.interrupt import Interrupt
@@ -58,11 +58,20 @@ Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 130 interrupted.
 """
 
 LARGEST = 1024
-WRONG_NORMALS = "M3D0511"
 
 # What kind of error a code was in 1993 (thesis 7.3): by its hundreds, but for the unrecoverable ones.
 _KINDS = {"M3D01": "Syntax", "M3D02": "Syntax", "M3D03": "Syntax", "M3D04": "Data", "M3D05": "Data"}
-_UNRECOVERABLE = {"M3D0112", "M3D0113", "M3D0306", "M3D0307", "M3D0418", "M3D0419"}
+_UNRECOVERABLE = {
+    entry.code
+    for entry in (
+        catalogue.EMPTY_FILE,
+        catalogue.NOT_A_TEXT_FILE,
+        catalogue.NO_PRIMITIVES,
+        catalogue.TOO_MANY_TRANSFORMATIONS,
+        catalogue.EYE_BELOW_PROFILE,
+        catalogue.EYE_ABOVE_PROFILE,
+    )
+}
 
 
 class UnrecoverableError(Exception):
@@ -202,7 +211,7 @@ def _run(options: Options) -> int:
     result = m3dc.compile(text, options.datafile)
     if options.echo:
         report.print_echo([], result.source, sys.stdout)
-    deny = frozenset({WRONG_NORMALS}) if options.check_normals else frozenset[str]()
+    deny = frozenset({catalogue.NORMAL_ON_WRONG_SIDE.code}) if options.check_normals else frozenset[str]()
     shown = Levels(deny=deny).apply(result.diagnostics)
     _print_errors(shown, result.source)
     if any(diagnostic.severity == "error" for diagnostic in shown):

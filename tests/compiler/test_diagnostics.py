@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from pathlib import Path
 
 import pytest
 from marks import mark, marks, with_marks, without_marks
 
 import m3dc
-from m3dc.diagnostics.catalogue import CATALOGUE
+from m3dc.diagnostics import catalogue
+from m3dc.diagnostics.catalogue import CATALOGUE, Entry
 
+ROOT = Path(__file__).parents[2]
 SCENES = sorted((Path(__file__).parent / "diagnostics").glob("*.m3d"))
 
 
@@ -98,6 +102,23 @@ def test_every_code_is_shown() -> None:
     """Each code of the catalogue stands in a scene."""
     shown = {m.code for scene in SCENES for m in marks(scene.read_text(encoding="utf-8"))}
     assert shown == set(CATALOGUE) - WITHOUT_SCENE
+
+
+def test_the_catalogue_is_in_order() -> None:
+    entries = [value for value in vars(catalogue).values() if isinstance(value, Entry)]
+    assert [entry.code for entry in entries] == sorted(CATALOGUE), "no code twice, and each in its place"
+
+
+@pytest.mark.parametrize("package", ["compiler/m3dc", "renderer/m3d_render", "lsp/m3d_lsp", "tools"])
+def test_code_calls_diagnostics_by_name(package: str) -> None:
+    """`catalogue.NO_LIGHT` and not its code, so that a reader knows what is meant and a type checker that it exists."""
+    for file in (ROOT / package).rglob("*.py"):
+        if file.samefile(catalogue.__file__):
+            continue
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        texts = [node for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+        for text in texts:
+            assert not re.fullmatch(r"M3D\d{4}", str(text.value)), f"{file}:{text.lineno}"
 
 
 @pytest.mark.parametrize("code", CATALOGUE)

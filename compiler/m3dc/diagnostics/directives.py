@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from ..text.source import Source
+from . import catalogue
 from .catalogue import CATALOGUE
 from .findings import Diagnostic, Fix
 
@@ -63,7 +64,7 @@ def wrong_directives(source: Source) -> Iterator[Diagnostic]:
 
 
 def _wrong(span: tuple[int, int], detail: str, word: str, words: list[str]) -> Diagnostic:
-    entry = CATALOGUE["M3D0120"]
+    entry = catalogue.IDLE_DIRECTIVE
     near = get_close_matches(word.upper() if words != ["allow"] else word.lower(), words, 2, 0.8)
     detail += f"; did you mean {near[0]}?" if near else ""
     # A code in lower case is certain; of others several are alike.
@@ -72,7 +73,7 @@ def _wrong(span: tuple[int, int], detail: str, word: str, words: list[str]) -> D
         if near and near[0].lower() == word.lower()
         else None
     )
-    return Diagnostic("M3D0120", entry.severity, entry.headline, span, detail, (), fix)
+    return Diagnostic(entry.code, entry.severity, entry.headline, span, detail, (), fix)
 
 
 def heading_end(data: bytes) -> int:

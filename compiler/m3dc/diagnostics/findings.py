@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from ..text.places import Places
 from ..text.span import Span
-from .catalogue import CATALOGUE, Severity
+from .catalogue import Entry, Severity
 
 
 class Related(NamedTuple):
@@ -84,7 +84,7 @@ class Findings:
 
     def add(
         self,
-        code: str,
+        entry: Entry,
         span: Span,
         detail: str = "",
         *,
@@ -92,18 +92,18 @@ class Findings:
         related: tuple[Related, ...] = (),
         fix: Fix | None = None,
     ) -> None:
-        """Report `code` at `span`; `fill` goes into its headline, `detail` says what was found and expected."""
-        entry = CATALOGUE[code]
+        """Report `entry` of the catalogue at `span`. `fill` goes into its headline, `detail` says what was found and
+        expected."""
         headline = entry.headline.format(fill) if fill else entry.headline
         if fix is not None:
             fix = fix._replace(span=self.absolute(fix.span))
-        self.found.append(Diagnostic(code, entry.severity, headline, self.absolute(span), detail, related, fix))
+        self.found.append(Diagnostic(entry.code, entry.severity, headline, self.absolute(span), detail, related, fix))
 
     def add_at(
-        self, code: str, span: Span, detail: str = "", *, fill: str = "", related: tuple[Related, ...] = ()
+        self, entry: Entry, span: Span, detail: str = "", *, fill: str = "", related: tuple[Related, ...] = ()
     ) -> None:
         """As `add`, at a place of the whole text."""
-        self.add(code, (span[0] - self.base, span[1] - self.base), detail, fill=fill, related=related)
+        self.add(entry, (span[0] - self.base, span[1] - self.base), detail, fill=fill, related=related)
 
     def absolute(self, span: Span) -> Span:
         """A place of the current item as a place of the whole text."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from tree_sitter import Node
 
-from ..diagnostics.catalogue import CATALOGUE
+from ..diagnostics import catalogue
 from ..syntax.ast import DEEPEST
 from ..text.span import Span
 
@@ -91,7 +91,7 @@ class _Reader:
 
     def _item(self, node: Node, depth: int) -> Item:
         if depth > DEEPEST:
-            message = f"{CATALOGUE['M3D0111'].headline}: no scene needs more than {DEEPEST} levels"
+            message = f"{catalogue.NESTED_TOO_DEEPLY.headline}: no scene needs more than {DEEPEST} levels"
             raise FormatError(message, (node.start_byte, node.end_byte))
         first = len(self.atoms)
         opened, members = -1, ()

@@ -14,7 +14,7 @@ from tree_sitter import Node, Tree
 
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Diagnostic, Findings
+from ..diagnostics import Diagnostic, Findings, catalogue
 from ..syntax.parse import parse
 from ..text.difference import Difference
 from ..text.source import BYTE_ORDER_MARK, Source
@@ -26,7 +26,12 @@ from .rows import Change
 __all__ = ["Edit", "FormatError", "edits", "format", "format_range"]
 
 # A long name, an empty scene and a number that can not be read have their tokens in place all the same.
-_NOT_FORM = {"M3D0104", "M3D0110", "M3D0112", "M3D0114"}
+_NOT_FORM = {
+    catalogue.EXPECTED_DIGIT.code,
+    catalogue.NAME_TOO_LONG.code,
+    catalogue.EMPTY_FILE.code,
+    catalogue.NUMBER_TOO_LARGE.code,
+}
 
 
 class Edit(NamedTuple):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
 from ..syntax import ast
 from ..text.span import Span
 from . import program
@@ -91,5 +91,5 @@ def report_unused_values(items: Iterable[tuple[int, Usage]], findings: Findings)
     for name, (base, span), detail in lost:
         if name in used:
             findings.base = base
-            findings.add("M3D0524", span, detail)
+            findings.add(catalogue.UNUSED_VALUE, span, detail)
     findings.base = 0

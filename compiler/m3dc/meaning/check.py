@@ -16,7 +16,7 @@ from m3d_language import Stop, read_table
 from m3d_language import table as language
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings, Fix, Related
+from ..diagnostics import Findings, Fix, Related, catalogue
 from ..diagnostics.spelling import Names, certain, nearest
 from ..diagnostics.words import CAPITALS, place_of, statement_of, takes
 from ..syntax import ast, numerals
@@ -48,7 +48,11 @@ ANY_BODY = language.Block(
 )
 
 _NONE: frozenset[str] = frozenset()
-_SHAPE_CODE = {"vector": "M3D0102", "number": "M3D0103", "integer": "M3D0103"}
+_EXPECTED = {
+    "vector": catalogue.EXPECTED_VECTOR,
+    "number": catalogue.EXPECTED_NUMBER,
+    "integer": catalogue.EXPECTED_NUMBER,
+}
 
 
 class Known(NamedTuple):
@@ -97,7 +101,7 @@ class Checker:
             case ast.Block() if item.keyword.text in LANGUAGE.top:
                 return self._block(item, LANGUAGE.blocks[item.keyword.text], {})
             case _:
-                self._findings.add("M3D0107", item.keyword.span, place_of(item.keyword.text, ()))
+                self._findings.add(catalogue.INVALID_AT_TOP, item.keyword.span, place_of(item.keyword.text, ()))
                 return None
 
     # --- variables ----------------------------------------------------------------------------------------------
@@ -118,7 +122,7 @@ class Checker:
                     detail = f"{name.text} is already a {before.type}"
                     again = self._without(declaration, number) if before.type == type_ else None
                     fix = Fix(f"Remove this {name.text}", again, "", certain=True) if again else None
-                    self._findings.add("M3D0201", name.span, detail, related=related, fix=fix)
+                    self._findings.add(catalogue.VARIABLE_ALREADY_DEFINED, name.span, detail, related=related, fix=fix)
                     continue
                 wrong = type_ != declaration.type.text
                 lost = type_ in LANGUAGE.basics and self.known.get(_lost(name.text)) is not None
@@ -144,7 +148,7 @@ class Checker:
                 says = f"did you mean {near}?"
             else:
                 says = f"the types are {', '.join(LANGUAGE.types)}"
-            self._findings.add("M3D0109", type_.span, f"{type_.text} is not a type; {says}", fix=fix)
+            self._findings.add(catalogue.INVALID_TYPE, type_.span, f"{type_.text} is not a type; {says}", fix=fix)
 
     def _in_capitals(self, words: list[ast.Keyword | ast.Name]) -> Fix | None:
         """The fix that writes some words of the item in capitals."""
@@ -188,7 +192,7 @@ class Checker:
             return True
         related = (Related(first, "the first one is here"),)
         detail = "only the first one counts" if keyword != "VARIABLES" else "all declarations stand in the first one"
-        self._findings.add("M3D0301", span, detail, fill=message, related=related)
+        self._findings.add(catalogue.BLOCK_ALREADY_DEFINED, span, detail, fill=message, related=related)
         return False
 
     def _variables_known(self) -> Iterator[tuple[str, Known]]:
@@ -219,7 +223,7 @@ class Checker:
                 if colour is not None:
                     detail += f"; there are no colours by name: {name.text} is {colour}"
                     fix = Fix(f"Write {colour}", name.span, colour)
-            self._findings.add("M3D0202", name.span, detail, fix=fix)
+            self._findings.add(catalogue.UNDEFINED_NAME, name.span, detail, fix=fix)
         return known
 
     def _has_type(self, name: ast.Name, wanted: str, also: str = "") -> bool:
@@ -233,10 +237,12 @@ class Checker:
         related = (Related(known.place, "declared here"),)
         if known.type != wanted:
             detail = f"{name.text} is a {known.type}, and a {wanted} is expected"
-            self._findings.add("M3D0203", name.span, detail, related=related)
+            self._findings.add(catalogue.INCOMPATIBLE_TYPES, name.span, detail, related=related)
             return False
         if not known.assigned and not known.used:
-            self._findings.add("M3D0504", name.span, f"{name.text} still has its default value", related=related)
+            self._findings.add(
+                catalogue.UNASSIGNED_VARIABLE, name.span, f"{name.text} still has its default value", related=related
+            )
         if not known.used:
             self.known[name.text] = known._replace(used=True)
         return True
@@ -246,7 +252,7 @@ class Checker:
         self._findings.base = 0
         for name, known in self._variables_known():
             if not known.used and known.type:
-                self._findings.add("M3D0503", known.place, f"nothing uses {name}")
+                self._findings.add(catalogue.UNUSED_VARIABLE, known.place, f"nothing uses {name}")
 
     def _assignment(self, item: ast.Assignment) -> program.Assignment | None:
         if not self._names:
@@ -268,7 +274,9 @@ class Checker:
                 # That another name is meant can not be told where there is nothing else.
                 title = f"Remove {'the assignment' if item.body is None else value.text}"
                 fix = Fix(title, gone, "", certain=item.body is not None)
-                self._findings.add("M3D0204", value.span, f"{value.text} already has its own value", fix=fix)
+                self._findings.add(
+                    catalogue.ASSIGNED_TO_ITSELF, value.span, f"{value.text} already has its own value", fix=fix
+                )
                 return None
             if not self._is_usable(value, target):
                 return None
@@ -276,7 +284,9 @@ class Checker:
             return None
         if body is not None and block is None:
             assert item.body is not None
-            self._findings.add("M3D0203", item.body.span, f"{item.target.text} is a {target}, not a structure")
+            self._findings.add(
+                catalogue.INCOMPATIBLE_TYPES, item.body.span, f"{item.target.text} is a {target}, not a structure"
+            )
             return None
         self.known[item.target.text] = self.known[item.target.text]._replace(unknown=False)
         return program.Assignment(item.target, target, value, body, broken, item.span)
@@ -289,9 +299,9 @@ class Checker:
             return _is_known(value)
         found = "a vector" if isinstance(value, ast.Vector) else "a number"
         if target in LANGUAGE.basics:
-            self._findings.add(_SHAPE_CODE[target.lower()], value.span, f"found {found}")
+            self._findings.add(_EXPECTED[target.lower()], value.span, f"found {found}")
         else:
-            self._findings.add("M3D0203", value.span, f"found {found}, and a {target} is expected")
+            self._findings.add(catalogue.INCOMPATIBLE_TYPES, value.span, f"found {found}, and a {target} is expected")
         return False
 
     def _components(self, vector: ast.Vector) -> bool:
@@ -346,14 +356,16 @@ class Checker:
             for span in standing.get(keyword, ()):
                 alike = self._text(span) == self._text(member.span)
                 fix = Fix(f"Remove this {keyword}", self._cut(span), "", certain=alike)
-                self._findings.add("M3D0512", span, fill=keyword, related=related, fix=fix)
+                self._findings.add(catalogue.OVERWRITTEN, span, fill=keyword, related=related, fix=fix)
             standing[keyword] = [member.span]
         elif isinstance(member, program.Block) and _is_one_structure(member.entry):
             before = standing.setdefault(keyword, [])
             if before:
                 related = (Related(self._findings.absolute(before[-1]), "it keeps what this one says"),)
                 detail = "what it does not name stays as it was; one block can say it all"
-                self._findings.add("M3D0523", member.keyword.span, detail, fill=keyword, related=related)
+                self._findings.add(
+                    catalogue.CHANGES_THE_ONE_BEFORE, member.keyword.span, detail, fill=keyword, related=related
+                )
             before.append(member.span)
 
     def _member(
@@ -379,9 +391,9 @@ class Checker:
 
     def _invalid(self, block: language.Block, span: Span, detail: str, fix: Fix | None = None) -> None:
         if block is ANY_BODY:
-            self._findings.add("M3D0107", span, detail, fix=fix)
+            self._findings.add(catalogue.INVALID_AT_TOP, span, detail, fix=fix)
         else:
-            self._findings.add("M3D0106", span, detail, fill=statement_of(block.keyword), fix=fix)
+            self._findings.add(catalogue.INVALID_IN_BLOCK, span, detail, fill=statement_of(block.keyword), fix=fix)
 
     def _wrong_form(self, item: ast.Statement | ast.Table | ast.Block | ast.Variables, block: language.Block) -> str:
         """Why an item does not belong: wrong keyword, or the right keyword in another form."""
@@ -403,7 +415,7 @@ class Checker:
             text = self._data[span[0] + self._start : span[1] + self._start].decode("utf-8", "replace")
             plain = len(given) == 3 and "/*" not in text
             fix = Fix(f"Write < {text} >", span, f"< {text} >", certain=True) if plain else None
-            self._findings.add("M3D0102", span, "a vector stands between < and >", fix=fix)
+            self._findings.add(catalogue.EXPECTED_VECTOR, span, "a vector stands between < and >", fix=fix)
             return None
         for expected, argument in zip(wanted, given, strict=False):
             good &= self._argument(argument, expected, entry)
@@ -421,9 +433,9 @@ class Checker:
             detail = f"{entry.keyword} {takes(entry)}; the {missing.name} is missing"
             end = given[-1].span[1] if given else item.keyword.span[1]
             if given and missing.shape != "vector":
-                self._findings.add("M3D0101", (end, end), detail, fill=",")
+                self._findings.add(catalogue.MISSING_MARK, (end, end), detail, fill=",")
             else:
-                self._findings.add(_SHAPE_CODE[missing.shape], item.keyword.span, detail)
+                self._findings.add(_EXPECTED[missing.shape], item.keyword.span, detail)
             return None
         return program.Statement(entry, given, item.span) if good else None
 
@@ -457,7 +469,7 @@ class Checker:
             case _:
                 found = "a vector" if isinstance(argument, ast.Vector) else "a number"
                 self._findings.add(
-                    _SHAPE_CODE[expected.shape],
+                    _EXPECTED[expected.shape],
                     argument.span,
                     f"found {found}" + (f"; {entry.keyword} {takes(entry)}" if entry else ""),
                 )
@@ -497,13 +509,13 @@ class Checker:
                 span=(fault.fix.span[0] - self._start, fault.fix.span[1] - self._start)
             )
             if not (fault.uncounted and self._said_count):
-                self._findings.add("M3D0103", (start, stop_), fault.detail, fix=fix)
+                self._findings.add(catalogue.EXPECTED_NUMBER, (start, stop_), fault.detail, fix=fix)
             self._said_count = self._said_count or fault.uncounted
             return
         start = min(stop.offset - self._start, end)
-        code, fill = _STOP_CODE.get(stop.expected, ("M3D0101", stop.expected))
+        found, fill = _STOPPED.get(stop.expected, (catalogue.MISSING_MARK, stop.expected))
         fix = self._digit_added(start) if stop.expected == "digit" else None
-        self._findings.add(code, (start, start + 1), layout_of(entry), fill=fill, fix=fix)
+        self._findings.add(found, (start, start + 1), layout_of(entry), fill=fill, fix=fix)
 
     def _digit_added(self, place: int) -> Fix | None:
         """The fix for a numeral in a table that lacks a digit at a place of the item."""
@@ -520,7 +532,7 @@ class Checker:
     def _short(self, item: ast.Table, entry: language.Table, missing: language.Argument) -> program.Table:
         """A table whose last row is not whole."""
         end = item.span[1]
-        self._findings.add(_SHAPE_CODE[missing.shape], (end - 1, end), layout_of(entry))
+        self._findings.add(_EXPECTED[missing.shape], (end - 1, end), layout_of(entry))
         return program.Table(entry, None, 0, (), (), item.keyword, item.span, broken=True)
 
 
@@ -534,12 +546,12 @@ _NUMERAL_END = re.compile(rb"[^\s<>,{}]*\Z")
 _LONG_NUMERAL = 64  # bytes
 
 # What is reported where a table of numbers stops fitting; elsewhere a punctuation mark is missing.
-_STOP_CODE = {
-    "number": ("M3D0103", ""),
-    "digit": ("M3D0104", ""),
-    "space": ("M3D0104", ""),
-    "<": ("M3D0102", ""),
-    "*/": ("M3D0105", ""),
+_STOPPED = {
+    "number": (catalogue.EXPECTED_NUMBER, ""),
+    "digit": (catalogue.EXPECTED_DIGIT, ""),
+    "space": (catalogue.EXPECTED_DIGIT, ""),
+    "<": (catalogue.EXPECTED_VECTOR, ""),
+    "*/": (catalogue.UNBALANCED_COMMENT, ""),
 }
 
 
@@ -587,7 +599,7 @@ def structural_faults(source: Source) -> list[str]:
 
 
 # An empty file, a long name and a huge number are sentences of the grammar all the same.
-_NOT_FORM = {"M3D0110", "M3D0112", "M3D0114"}
+_NOT_FORM = {catalogue.NAME_TOO_LONG.code, catalogue.EMPTY_FILE.code, catalogue.NUMBER_TOO_LARGE.code}
 
 
 def check(
@@ -613,7 +625,9 @@ def check(
             del findings.found[before:]
         elif syntax.broken:
             # What could not be read may have given a variable its value.
-            findings.found[before:] = [found for found in findings.found[before:] if found.code != "M3D0504"]
+            findings.found[before:] = [
+                found for found in findings.found[before:] if found.code != catalogue.UNASSIGNED_VARIABLE.code
+            ]
         if content is not None:
             yield program.Item(item.start, item.base, content)
     if not syntax.broken:

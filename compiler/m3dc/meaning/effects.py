@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from m3d_language.table import Default
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
+from ..diagnostics.catalogue import Entry
 from ..text.span import Span
 from . import program
 from .values import Record
@@ -24,7 +25,7 @@ class Rule(NamedTuple):
 
     keywords: dict[str, Default]
     moot: Callable[[Record], bool]
-    code: str
+    diagnostic: Entry
     why: str
 
 
@@ -43,19 +44,24 @@ def _is_matt(surface: Record) -> bool:
 # REFINDEX, which needs a METALLIC surface, is not among them: scenes since 1993 give it to every surface.
 RULES: dict[str, tuple[Rule, ...]] = {
     "SURFACE": (
-        Rule({"HARD": 0.0, "METALLIC": 0.0}, _is_matt, "M3D0522", "SPECULAR is 0: nothing is reflected specularly"),
+        Rule(
+            {"HARD": 0.0, "METALLIC": 0.0},
+            _is_matt,
+            catalogue.IDLE_IN_SURFACE,
+            "SPECULAR is 0: nothing is reflected specularly",
+        ),
     ),
     "SOURCE": (
         Rule(
             {"ANGLE": 180.0, "EXPONENT": 0.0, "ATTENUATION": 0.0},
             _is_infinite,
-            "M3D0515",
+            catalogue.IDLE_IN_LIGHT,
             "the light is INFINITE; only a POINT light has it",
         ),
         Rule(
             {"DIRECTION": None, "ZENITH": None, "AZIMUTH": None},
             _shines_everywhere,
-            "M3D0515",
+            catalogue.IDLE_IN_LIGHT,
             "a POINT light stands at its FROM, and shines in all directions unless ANGLE or EXPONENT narrow it",
         ),
     ),
@@ -76,7 +82,7 @@ class Weighed(NamedTuple):
     """A piece of text that one object has: what to say of it if it has no effect in any; None where it has one here."""
 
     place: Span
-    idle: tuple[str, str, str] | None  # code, detail, what fills the headline
+    idle: tuple[Entry, str, str] | None  # the diagnostic, detail, what fills the headline
 
 
 def weighed(record: Record) -> Iterator[Weighed]:
@@ -89,7 +95,7 @@ def weighed(record: Record) -> Iterator[Weighed]:
         if rule is None:
             yield Weighed(record.places[keyword], None)
         elif keyword in record.idle:
-            yield Weighed(record.places[keyword], (rule.code, rule.why, keyword))
+            yield Weighed(record.places[keyword], (rule.diagnostic, rule.why, keyword))
 
 
 def report_idle(pieces: Iterable[Weighed], findings: Findings) -> None:
@@ -98,8 +104,8 @@ def report_idle(pieces: Iterable[Weighed], findings: Findings) -> None:
     live = {piece.place for piece in pieces if piece.idle is None}
     for place, idle in dict.fromkeys(piece for piece in pieces if piece.place not in live):
         assert idle is not None
-        code, detail, fill = idle
-        findings.add_at(code, place, detail, fill=fill)
+        entry, detail, fill = idle
+        findings.add_at(entry, place, detail, fill=fill)
 
 
 def _without_effect(record: Record, rules: tuple[Rule, ...]) -> Iterator[tuple[str, Rule]]:
@@ -124,9 +130,9 @@ def report_unused_of_textures(block: program.Block, findings: Findings) -> None:
         keyword = member.entry.keyword
         if keyword not in uses:
             detail = f"{block.entry.keyword} uses {', '.join(uses[:-1])} and {uses[-1]}"
-            findings.add("M3D0517", member.span, detail, fill=keyword)
+            findings.add(catalogue.IDLE_IN_TEXTURE, member.span, detail, fill=keyword)
         elif keyword == "COLOR" and ranges and "COLORS" in uses:
-            findings.add("M3D0517", member.span, "COLORS takes its place", fill=keyword)
+            findings.add(catalogue.IDLE_IN_TEXTURE, member.span, "COLORS takes its place", fill=keyword)
 
 
 # What there must be for a texture to show, beside what stands in it: a place in the scene or its object, sources of

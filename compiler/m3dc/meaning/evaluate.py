@@ -17,7 +17,8 @@ import numpy as np
 from m3d_language import table as language
 from m3d_language.table import LANGUAGE, Default
 
-from ..diagnostics import Findings, Fix
+from ..diagnostics import Findings, Fix, catalogue
+from ..diagnostics.catalogue import Entry
 from ..syntax import ast
 from ..text.span import Span
 from . import program
@@ -35,7 +36,7 @@ T = TypeVar("T")
 INTEGER_LIMIT = 2**31 - 1
 
 # What is reported of a value out of range that is not an error.
-_SUBSTITUTED = {"default": "M3D0402", "limit": "M3D0422", "warn": "M3D0423"}
+_SUBSTITUTED = {"default": catalogue.SET_TO_DEFAULT, "limit": catalogue.SET_TO_LIMIT, "warn": catalogue.UNUSUAL_NUMBER}
 
 
 TURN = 360.0  # degrees
@@ -110,7 +111,7 @@ class Evaluator:
             if size.excess is not None:
                 assert isinstance(content, program.Block)
                 what, detail = size.excess
-                self._findings.add("M3D0412", content.span, detail, fill=what)
+                self._findings.add(catalogue.TOO_MANY, content.span, detail, fill=what)
                 made[-1] = _NOTHING
         self._findings.base = 0
         scene = next((step.scene for step in made if step.scene is not None), None)
@@ -209,7 +210,7 @@ class Evaluator:
                 assert isinstance(source, Record)
                 if start is not IDENTITY:
                     detail = f"{block.source.text} replaces the matrix; a block in braces would build on it"
-                    self._findings.add("M3D0501", block.source.span, detail)
+                    self._findings.add(catalogue.TRANSFORM_DISCARDS, block.source.span, detail)
                 start = source.transform
                 record.broken |= source.broken & {"TRANSFORM"}
             steps = partial(self._steps, start, block.body)
@@ -246,14 +247,14 @@ class Evaluator:
                 if depth:
                     fix = Fix("Remove what stands before it", (members[0].span[0], member.span[0]), "")
                     detail = "put it first, or leave out what stands before it"
-                    self._findings.add("M3D0502", member.span, detail, fix=fix)
+                    self._findings.add(catalogue.IDENTITY_DISCARDS, member.span, detail, fix=fix)
                 transform, depth = IDENTITY, 0
                 continue
             depth += 1
             if depth > LANGUAGE.limits["transforms"]:
                 most = LANGUAGE.limits["transforms"]
                 detail = f"at most {most} transformations a block; put the rest into another TRANSFORM block"
-                self._findings.add("M3D0307", member.span, detail)
+                self._findings.add(catalogue.TOO_MANY_TRANSFORMATIONS, member.span, detail)
                 break
             values = self._values(member)
             if values is None:
@@ -263,7 +264,7 @@ class Evaluator:
                 continue
             transform = transform.then(STEPS[member.entry.keyword](*numbers))
             if not transform.is_finite:
-                self._findings.add("M3D0421", member.span, "its numbers are too large or too small")
+                self._findings.add(catalogue.NO_INVERSE, member.span, "its numbers are too large or too small")
                 transform = None
         return transform
 
@@ -305,7 +306,7 @@ class Evaluator:
         if expected.shape == "integer":
             assert isinstance(value, (int, float))
             if abs(value) > INTEGER_LIMIT:
-                self._findings.add("M3D0114", argument.span, "a whole number is at most 2147483647")
+                self._findings.add(catalogue.NUMBER_TOO_LARGE, argument.span, "a whole number is at most 2147483647")
                 return None
             value = float(math.trunc(value))
         bounds = entry.bounds or expected.bounds
@@ -315,16 +316,16 @@ class Evaluator:
         if all(part in bounds.interval for part in parts):
             return value
         shown = ", ".join(f"{part:g}" for part in parts)
-        fix, code = None, _SUBSTITUTED.get(bounds.policy, "")
         if bounds.policy == "error":
             self._findings.add(
-                "M3D0401",
+                catalogue.OUT_OF_RANGE,
                 argument.span,
                 f"{entry.keyword} is {shown}, expected {bounds.interval}",
                 fill=bounds.message,
                 fix=_turned(argument, value, bounds.interval) if expected.unit == "degrees" else None,
             )
             return None
+        fix, found = None, _SUBSTITUTED[bounds.policy]
         if bounds.policy == "default":
             default = entry.default
             substitute = default[number] if isinstance(default, tuple) and len(default) > 1 else default
@@ -340,11 +341,11 @@ class Evaluator:
             detail = f"{entry.keyword} {shown} is replaced by {', '.join(f'{part:g}' for part in clamped)}"
             fix = _written(argument, value)
             if expected.kind == "color" and looks_like_bytes(parts):
-                code, (detail, fraction) = "M3D0530", _of_bytes(shown, parts)
+                found, (detail, fraction) = catalogue.COLOR_OF_BYTES, _of_bytes(shown, parts)
                 fix = _written(argument, fraction)
         else:
             detail = f"{entry.keyword} is {shown}"
-        self._findings.add(code, argument.span, detail, fill=bounds.message, fix=fix)
+        self._findings.add(found, argument.span, detail, fill=bounds.message, fix=fix)
         return value
 
     def _value(self, argument: ast.Argument) -> float | Vector:
@@ -372,7 +373,7 @@ class Evaluator:
         clash = next((k for k in _EXCLUDES.get(keyword, ()) if k in record.tables), None)
         if clash is not None:
             name = "FACETS" if keyword == "SFACETS" else keyword
-            self._findings.add("M3D0303", item.keyword.span, f"by {clash}, earlier", fill=name)
+            self._findings.add(catalogue.TABLE_ALREADY_DEFINED, item.keyword.span, f"by {clash}, earlier", fill=name)
             return
         value = None
         if not item.broken:
@@ -416,7 +417,7 @@ class Evaluator:
         for value, span in zip(values, spans, strict=True):
             assert not isinstance(value, tuple)
             if abs(value) > INTEGER_LIMIT:
-                self._findings.add("M3D0114", span, "a whole number is at most 2147483647")
+                self._findings.add(catalogue.NUMBER_TOO_LARGE, span, "a whole number is at most 2147483647")
                 return None
             head.append(math.trunc(value))
         return tuple(head)
@@ -433,7 +434,7 @@ class Evaluator:
             least, most = float(part.min()), float(part.max())
             if not (math.isfinite(least) and math.isfinite(most)):
                 row = int(np.flatnonzero(~np.isfinite(part).all(axis=1))[0])
-                self._row_error("M3D0114", value, row, "the largest number is about 1.8e308")
+                self._row_error(catalogue.NUMBER_TOO_LARGE, value, row, "the largest number is about 1.8e308")
                 return None
             bounds = argument.bounds
             if bounds is None or (least in bounds.interval and most in bounds.interval):
@@ -444,19 +445,19 @@ class Evaluator:
             outside = np.flatnonzero((below | above).any(axis=1))
             shown = ", ".join(f"{n:g}" for n in part[outside[0]])
             if bounds.policy == "error":
-                self._row_error("M3D0401", value, int(outside[0]), f"found {shown}", fill=bounds.message)
+                self._row_error(catalogue.OUT_OF_RANGE, value, int(outside[0]), f"found {shown}", fill=bounds.message)
                 return None
-            code, detail = "M3D0422", f"{shown} is set to the nearest limit"
+            found, detail = catalogue.SET_TO_LIMIT, f"{shown} is set to the nearest limit"
             if argument.kind == "color" and looks_like_bytes(part[outside[0]].tolist()):
-                code, (detail, _) = "M3D0530", _of_bytes(shown, part[outside[0]].tolist())
-            self._row_error(code, value, int(outside[0]), detail, fill=bounds.message)
+                found, (detail, _) = catalogue.COLOR_OF_BYTES, _of_bytes(shown, part[outside[0]].tolist())
+            self._row_error(found, value, int(outside[0]), detail, fill=bounds.message)
             rows = value.rows.copy()
             rows[:, columns] = part.clip(low, high)
             value = value._replace(rows=rows)
         return value
 
-    def _row_error(self, code: str, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
-        self._findings.add_at(code, value.place(row), detail, fill=fill)
+    def _row_error(self, entry: Entry, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
+        self._findings.add_at(entry, value.place(row), detail, fill=fill)
 
 
 def _turned(argument: ast.Argument, value: float | Vector, interval: language.Interval) -> Fix | None:

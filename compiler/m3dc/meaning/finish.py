@@ -13,7 +13,7 @@ import numpy as np
 
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
 from . import mesh
 from .values import Record
 
@@ -30,12 +30,14 @@ def _three_points(record: Record, findings: Findings, *, whole: bool) -> None:
     first, second, third = (np.array(record.vector(f"VERTEX{n}")) for n in (1, 2, 3))
     (ux, uy, uz), (vx, vy, vz) = third - second, first - second
     if mesh.degenerate((ux, uy, uz), (vx, vy, vz)):
-        findings.add_at("M3D0403", record.span, "the three points must differ and not lie on one line")
+        findings.add_at(catalogue.INVALID_VERTICES, record.span, "the three points must differ and not lie on one line")
 
 
 def _solid(record: Record, findings: Findings, *, whole: bool) -> None:
     if whole and not record.parts and not record.broken:
-        findings.add_at("M3D0306", record.span, "give it a SPHERE, PLANE, TRIANGLE, RECTANGLE, POLYGONS or TERRAIN")
+        findings.add_at(
+            catalogue.NO_PRIMITIVES, record.span, "give it a SPHERE, PLANE, TRIANGLE, RECTANGLE, POLYGONS or TERRAIN"
+        )
 
 
 def _direction(record: Record, findings: Findings, *, whole: bool) -> None:
@@ -43,11 +45,13 @@ def _direction(record: Record, findings: Findings, *, whole: bool) -> None:
     place = record.place("DIRECTION")
     if x == y == z == 0:
         if "FROM" in record.places or "TO" in record.places:
-            findings.add_at("M3D0415", place, "they are the same point, and so give no direction")
+            findings.add_at(catalogue.FROM_EQUALS_TO, place, "they are the same point, and so give no direction")
         else:
-            findings.add_at("M3D0420", place, "a direction is a vector of any length but zero")
+            findings.add_at(catalogue.ZERO_DIRECTION, place, "a direction is a vector of any length but zero")
     elif record.block == "SUN" and z >= 0:
-        findings.add_at("M3D0414", place, f"sunlight travels down; the z of its direction is {z:g}, expected < 0")
+        findings.add_at(
+            catalogue.SUN_BELOW_HORIZON, place, f"sunlight travels down; the z of its direction is {z:g}, expected < 0"
+        )
 
 
 def _view(record: Record, findings: Findings, *, whole: bool) -> None:
@@ -55,14 +59,18 @@ def _view(record: Record, findings: Findings, *, whole: bool) -> None:
     distance = max(abs(t - e) for e, t in zip(eye, target, strict=True))
     if distance <= 1e-12 * max(1.0, *(abs(e) for e in eye)):
         place = record.places.get("TO") or record.place("FROM")
-        findings.add_at("M3D0415", place, "the point looked at must differ from the observer's position")
+        findings.add_at(catalogue.FROM_EQUALS_TO, place, "the point looked at must differ from the observer's position")
     region = record.values["REGION"]
     assert isinstance(region, tuple)
     top, left, bottom, right = region
     if bottom < top:
-        findings.add_at("M3D0416", record.place("REGION"), f"bottom {bottom:g} is set to top, {top:g}")
+        findings.add_at(
+            catalogue.REGION_BOTTOM_ABOVE_TOP, record.place("REGION"), f"bottom {bottom:g} is set to top, {top:g}"
+        )
     if right < left:
-        findings.add_at("M3D0417", record.place("REGION"), f"right {right:g} is set to left, {left:g}")
+        findings.add_at(
+            catalogue.REGION_RIGHT_BEFORE_LEFT, record.place("REGION"), f"right {right:g} is set to left, {left:g}"
+        )
     record.values["REGION"] = (top, left, max(top, bottom), max(left, right))
 
 
@@ -71,7 +79,7 @@ def _mirage(record: Record, findings: Findings, *, whole: bool) -> None:
     if profile is None:
         if "PROFILE" not in record.broken:
             findings.add_at(
-                "M3D0302",
+                catalogue.NO_PROFILE,
                 record.span,
                 "a MIRAGE needs its temperatures: PROFILE { elevation temperature ... }",
             )
@@ -79,14 +87,16 @@ def _mirage(record: Record, findings: Findings, *, whole: bool) -> None:
     elevation = profile.rows[:, 0]
     points, least, most = len(elevation), LANGUAGE.limits["profile_least"], LANGUAGE.limits["profile_most"]
     if points < least:
-        findings.add_at("M3D0410", profile.span, f"found {points}")
+        findings.add_at(catalogue.TOO_FEW_PROFILE_POINTS, profile.span, f"found {points}")
     elif points > most:
-        findings.add_at("M3D0412", profile.place(most), f"found {points}, at most {most}", fill="PROFILE points")
+        findings.add_at(
+            catalogue.TOO_MANY, profile.place(most), f"found {points}, at most {most}", fill="PROFILE points"
+        )
     falling = np.flatnonzero(np.diff(elevation) <= 0)
     if falling.size:
         row = int(falling[0]) + 1
         detail = f"{elevation[row]:g} comes after {elevation[row - 1]:g}; they go from low to high"
-        findings.add_at("M3D0411", profile.place(row), detail)
+        findings.add_at(catalogue.PROFILE_NOT_INCREASING, profile.place(row), detail)
     if points < least or points > most or falling.size:
         record.broken |= {"PROFILE"}
 
@@ -97,12 +107,14 @@ def _texture(record: Record, findings: Findings, *, whole: bool) -> None:
         return
     most = LANGUAGE.limits["color_ranges"]
     if len(colors.rows) > most:
-        findings.add_at("M3D0412", colors.place(most), f"found {len(colors.rows)}, at most {most}", fill="color ranges")
+        findings.add_at(
+            catalogue.TOO_MANY, colors.place(most), f"found {len(colors.rows)}, at most {most}", fill="color ranges"
+        )
     previous = 0.0
     for row, (start, end) in enumerate(colors.rows[:, :2].tolist()):
         if not previous <= start < end <= 1.0:
             detail = f"the range {start:g} to {end:g} must run upwards from {previous:g} or more to at most 1"
-            findings.add_at("M3D0413", colors.place(row), detail)
+            findings.add_at(catalogue.COLOR_RANGES_NOT_INCREASING, colors.place(row), detail)
             return
         previous = end
 
@@ -118,9 +130,9 @@ def _scene(record: Record, findings: Findings, *, whole: bool) -> None:
     place = view.place("FROM")
     detail = f"the observer is at {height:g}, the PROFILE runs from {lowest:g} to {highest:g}"
     if height < lowest:
-        findings.add_at("M3D0418", place, detail)
+        findings.add_at(catalogue.EYE_BELOW_PROFILE, place, detail)
     elif height > highest:
-        findings.add_at("M3D0419", place, detail)
+        findings.add_at(catalogue.EYE_ABOVE_PROFILE, place, detail)
 
 
 FINISH: defaultdict[str, Finish] = defaultdict(

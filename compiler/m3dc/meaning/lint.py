@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
 from . import program
 from .assignments import Usage, report_unused_values, usage
 from .effects import ENDLESS, NEEDS, Weighed, report_idle, report_unused_of_textures, weighed
@@ -113,7 +113,7 @@ def _lint_object(thing: Record, findings: Findings) -> _Looked:
 
 def _no_light(world: World, _shapes: list[_Shape], findings: Findings) -> None:
     if world.solids and not world.lights:
-        findings.add_at("M3D0513", world.solids[0].span, "add a LIGHT, or a SKY with its sun")
+        findings.add_at(catalogue.NO_LIGHT, world.solids[0].span, "add a LIGHT, or a SKY with its sun")
 
 
 def _boundary(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -125,13 +125,13 @@ def _boundary(world: World, _shapes: list[_Shape], findings: Findings) -> None:
     for elevation in mirage.tables["PROFILE"].rows[:, 0].tolist():
         if abs(elevation - height) < NEAR_BOUNDARY:
             detail = f"the eye is at {height:g}, the PROFILE has a point at {elevation:g}; move either a little"
-            findings.add_at("M3D0506", view.place("FROM"), detail)
+            findings.add_at(catalogue.EYE_ON_LAYER_BOUNDARY, view.place("FROM"), detail)
 
 
 def _segments(world: World, _shapes: list[_Shape], findings: Findings) -> None:
     mirage = world.scene.nested.get("MIRAGE")
     if mirage is not None and mirage.integer("SEGMENTS") > LANGUAGE.limits["segments"]:
-        findings.add_at("M3D0508", mirage.place("SEGMENTS"), "the rest of it has no effect")
+        findings.add_at(catalogue.TOO_MANY_SEGMENTS, mirage.place("SEGMENTS"), "the rest of it has no effect")
 
 
 def _textures(thing: Record) -> Sequence[Record]:
@@ -145,14 +145,14 @@ def _texture_stays(thing: Record, findings: Findings) -> None:
         return
     for texture in _textures(thing):
         if not texture.flag("LOCAL") and NEEDS[texture.block] in ("place", "waves"):
-            findings.add_at("M3D0507", texture.span, "LOCAL would tie it to the object")
+            findings.add_at(catalogue.TEXTURE_STAYS, texture.span, "LOCAL would tie it to the object")
 
 
 def _no_waves(thing: Record, findings: Findings) -> None:
     for texture in _textures(thing):
         if NEEDS[texture.block] == "waves" and not texture.parts:
             detail = "give it a source: WAVE { CENTER < 0, 0, 0 > FREQ 1 }"
-            findings.add_at("M3D0516", texture.span, detail, fill=texture.block)
+            findings.add_at(catalogue.NO_WAVE, texture.span, detail, fill=texture.block)
 
 
 def _statements(thing: Record) -> Iterator[Weighed]:
@@ -168,7 +168,7 @@ def _blends(thing: Record) -> Iterator[Weighed]:
         if NEEDS[texture.block] == "uv":
             axis = "u" if texture.block == "UBLEND" else "v"
             detail = f"a PLANE is endless and has no {axis}; a RECTANGLE has one"
-            yield Weighed(texture.span, ("M3D0518", detail, texture.block) if blank else None)
+            yield Weighed(texture.span, (catalogue.BLEND_ON_PLANE, detail, texture.block) if blank else None)
 
 
 def _normals(thing: Record) -> Iterator[Weighed]:
@@ -177,7 +177,10 @@ def _normals(thing: Record) -> Iterator[Weighed]:
         assert record.mesh is not None
         if record.flag("PHONG"):
             detail = "FACETS gives no normals, so that facets stay flat; SFACETS gives one at each corner"
-            yield Weighed(record.place("PHONG"), None if len(record.mesh.normals) else ("M3D0514", detail, ""))
+            yield Weighed(
+                record.place("PHONG"),
+                None if len(record.mesh.normals) else (catalogue.PHONG_WITHOUT_NORMALS, detail, ""),
+            )
 
 
 def _primitives(thing: Record) -> Iterator[tuple[Record, Transform]]:
@@ -194,7 +197,7 @@ def _stretched_sphere(thing: Record, findings: Findings) -> None:
         if factors.max() > factors.min() * (1 + 1e-6):
             shown = ", ".join(f"{factor:g}" for factor in factors)
             detail = f"scaled by {shown} its radius becomes {part.number('RADIUS') * factors.max():g}"
-            findings.add_at("M3D0509", part.span, detail)
+            findings.add_at(catalogue.STRETCHED_SPHERE, part.span, detail)
 
 
 def _meshes(thing: Record) -> Iterator[Record]:
@@ -210,7 +213,7 @@ def _unused_vertices(thing: Record, findings: Findings) -> None:
         if unused.size:
             vertices = record.tables["VERTICES"]
             others = f" and {unused.size - 1} more" if unused.size > 1 else ""
-            findings.add_at("M3D0510", vertices.place(int(unused[0])), f"vertex {unused[0]}{others}")
+            findings.add_at(catalogue.UNUSED_VERTICES, vertices.place(int(unused[0])), f"vertex {unused[0]}{others}")
 
 
 def _wrong_side(thing: Record, findings: Findings) -> None:
@@ -225,7 +228,7 @@ def _wrong_side(thing: Record, findings: Findings) -> None:
         wrong = np.flatnonzero(against)
         if wrong.size:
             others = f" and {wrong.size - 1} more" if wrong.size > 1 else ""
-            findings.add_at("M3D0511", mesh.place(int(wrong[0])), f"facet {wrong[0]}{others}")
+            findings.add_at(catalogue.NORMAL_ON_WRONG_SIDE, mesh.place(int(wrong[0])), f"facet {wrong[0]}{others}")
 
 
 def _light_reaches_nothing(world: World, shapes: list[_Shape], findings: Findings) -> None:
@@ -233,9 +236,9 @@ def _light_reaches_nothing(world: World, shapes: list[_Shape], findings: Finding
     for light in world.lights:
         source = light if light.block == "SUN" else light.member("SOURCE")
         if source.number("INTENSITY") == 0 or not any(source.vector("COLOR")):
-            findings.add_at("M3D0505", source.span, "it has no intensity or is black")
+            findings.add_at(catalogue.LIGHT_REACHES_NOTHING, source.span, "it has no intensity or is black")
         elif _is_narrow(source) and world.solids and not any(_reaches(light, source, shape) for shape in shapes):
-            findings.add_at("M3D0505", source.span, "it shines past every solid")
+            findings.add_at(catalogue.LIGHT_REACHES_NOTHING, source.span, "it shines past every solid")
 
 
 def _is_narrow(source: Record) -> bool:
@@ -293,7 +296,9 @@ def _hidden_background(world: World, _shapes: list[_Shape], findings: Findings) 
     scene = world.scene
     instead = next((keyword for keyword in ("SKY", "HAZE") if keyword in scene.nested), None)
     if instead is not None and any(scene.vector("BACKGROUND")):
-        findings.add_at("M3D0519", scene.place("BACKGROUND"), f"the {instead} is seen in its place")
+        findings.add_at(
+            catalogue.BACKGROUND_NEVER_SEEN, scene.place("BACKGROUND"), f"the {instead} is seen in its place"
+        )
 
 
 def _nothing_sampled(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -303,10 +308,10 @@ def _nothing_sampled(world: World, _shapes: list[_Shape], findings: Findings) ->
     samples, depth = ambient.integer("NSAMPLES"), ambient.integer("DEPTH")
     if samples and depth < _MOST_SAMPLED:
         detail = f"NSAMPLES is {samples} and DEPTH {depth}; with a DEPTH of 2 the surfaces that the eye sees sample"
-        findings.add_at("M3D0520", ambient.place("NSAMPLES"), detail)
+        findings.add_at(catalogue.AMBIENT_NOT_SAMPLED, ambient.place("NSAMPLES"), detail)
     elif depth and not samples:
         detail = f"DEPTH is {depth} and NSAMPLES 0; 4 to 16 samples are reasonable"
-        findings.add_at("M3D0520", ambient.place("DEPTH"), detail)
+        findings.add_at(catalogue.AMBIENT_NOT_SAMPLED, ambient.place("DEPTH"), detail)
 
 
 def _no_shadows_at_all(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -316,7 +321,7 @@ def _no_shadows_at_all(world: World, _shapes: list[_Shape], findings: Findings) 
         source = light if light.block == "SUN" else light.member("SOURCE")
         if source.flag("NOSHADOWS"):
             detail = "no light casts shadows unless the SCENE says SHADOWS"
-            findings.add_at("M3D0521", source.place("NOSHADOWS"), detail)
+            findings.add_at(catalogue.NOSHADOWS_WITHOUT_SHADOWS, source.place("NOSHADOWS"), detail)
 
 
 def _no_heights(world: World, shapes: list[_Shape], findings: Findings) -> None:
@@ -327,7 +332,7 @@ def _no_heights(world: World, shapes: list[_Shape], findings: Findings) -> None:
         for texture in _textures(thing):
             if NEEDS[texture.block] == "heights":
                 detail = "it goes by the heights of the scene, in which a PLANE does not count"
-                findings.add_at("M3D0529", texture.span, detail, fill=texture.block)
+                findings.add_at(catalogue.HEIGHTS_OF_PLANES, texture.span, detail, fill=texture.block)
 
 
 def _kelvin(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -348,7 +353,7 @@ def _nothing_before_the_camera(world: World, shapes: list[_Shape], findings: Fin
     place = record.places.get("TO") or record.places.get("FROM") or shapes[0].record.span
     (x, y, z), (tx, ty, tz) = record.vector("FROM"), record.vector("TO")
     detail = f"the eye at {x:g}, {y:g}, {z:g} looks to {tx:g}, {ty:g}, {tz:g}, past every solid"
-    findings.add_at("M3D0526", place, detail)
+    findings.add_at(catalogue.NOTHING_IN_VIEW, place, detail)
 
 
 def _inside(world: World, shapes: list[_Shape], findings: Findings) -> None:
@@ -364,7 +369,9 @@ def _inside(world: World, shapes: list[_Shape], findings: Findings) -> None:
         lamps = (_position(light) for light in world.lights if _is_point(light))
         if not any(math.dist(lamp, shape.centre) < shape.radius for lamp in lamps):
             place = view.places.get("FROM", shape.record.span)
-            findings.add_at("M3D0527", place, f"within {shape.radius:g} of its centre; it hides everything else")
+            findings.add_at(
+                catalogue.EYE_IN_SPHERE, place, f"within {shape.radius:g} of its centre; it hides everything else"
+            )
             return
 
 

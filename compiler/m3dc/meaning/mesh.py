@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
 from .transform import unit
 from .values import Mesh, Record, TableValue
 
@@ -65,15 +65,15 @@ def polygons(record: Record, findings: Findings, *, whole: bool) -> None:
     if facets is None or vertices is None:
         if whole:
             missing = "FACETS" if vertices is not None else "VERTICES"
-            findings.add_at("M3D0304", record.span, f"POLYGONS needs a {missing} table", fill=missing)
+            findings.add_at(catalogue.NO_TABLE, record.span, f"POLYGONS needs a {missing} table", fill=missing)
         return
     sound = _counted(vertices, vertices.head[0], "VERTICES", findings)
     sound &= _counted(facets, facets.head[0], "FACETS", findings)
     if sound and vertices.head[0] < 3:
-        findings.add_at("M3D0407", vertices.span, "at least 3 vertices make a facet")
+        findings.add_at(catalogue.TOO_FEW_VERTICES, vertices.span, "at least 3 vertices make a facet")
         sound = False
     if sound and facets.head[0] < 1:
-        findings.add_at("M3D0408", facets.span, "at least one facet must be there")
+        findings.add_at(catalogue.TOO_FEW_ROWS, facets.span, "at least one facet must be there")
         sound = False
     record.mesh = (_faceted(vertices, facets, findings) if sound else None) or _BROKEN
 
@@ -82,10 +82,17 @@ def _counted(table: TableValue, count: int, keyword: str, findings: Findings) ->
     """Whether a table has as many rows as it says."""
     rows = len(table.rows)
     if rows > count:
-        findings.add_at("M3D0405", table.place(max(count, 0)), f"{count} specified, {rows} found", fill=keyword)
+        findings.add_at(
+            catalogue.MORE_ROWS_THAN_SPECIFIED,
+            table.place(max(count, 0)),
+            f"{count} specified, {rows} found",
+            fill=keyword,
+        )
     elif rows < count:
         end = table.span[1]
-        findings.add_at("M3D0406", (end - 1, end), f"{count} specified, {rows} found", fill=keyword)
+        findings.add_at(
+            catalogue.FEWER_ROWS_THAN_SPECIFIED, (end - 1, end), f"{count} specified, {rows} found", fill=keyword
+        )
     return rows == count
 
 
@@ -98,14 +105,14 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
         for row in undefined[:MOST_REPORTED].tolist():
             shown = " ".join(f"{i:g}" for i in indices[row])
             detail = f"facet {row} uses {shown}; vertices are numbered 0 to {last}"
-            findings.add_at("M3D0305", facets.place(row), detail)
+            findings.add_at(catalogue.UNDEFINED_VERTEX, facets.place(row), detail)
         return None
     corners = indices.astype(np.int32)
     flat = _flat_facets(positions, corners)
     if flat.size:
         for row in flat[:MOST_REPORTED].tolist():
             detail = f"the corners of facet {row} lie on a line; three points not on a line make a triangle"
-            findings.add_at("M3D0403", facets.place(row), detail)
+            findings.add_at(catalogue.INVALID_VERTICES, facets.place(row), detail)
         return None
     normals, normal_rows = _NO_NORMALS
     if facets.rows.shape[1] > 3:
@@ -113,7 +120,7 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
         zero = ~normals.any(axis=1)
         if zero.any():
             row = int(np.flatnonzero(zero)[0]) // 3
-            findings.add_at("M3D0404", facets.place(row), f"a normal of facet {row} is zero")
+            findings.add_at(catalogue.ZERO_NORMAL, facets.place(row), f"a normal of facet {row} is zero")
             return None
         normals = unit(normals)
         normal_rows = np.arange(len(normals), dtype=np.int32).reshape(-1, 3)
@@ -127,12 +134,14 @@ def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
         return
     if table is None:
         if whole:
-            findings.add_at("M3D0304", record.span, "TERRAIN needs a VERTICES table", fill="VERTICES")
+            findings.add_at(catalogue.NO_TABLE, record.span, "TERRAIN needs a VERTICES table", fill="VERTICES")
         return
     rows, columns = table.head
     record.mesh = _BROKEN
     if rows < 2 or columns < 2:
-        findings.add_at("M3D0408", table.span, f"a grid has at least 2 rows and 2 columns, not {rows} and {columns}")
+        findings.add_at(
+            catalogue.TOO_FEW_ROWS, table.span, f"a grid has at least 2 rows and 2 columns, not {rows} and {columns}"
+        )
         return
     if not _counted(table, rows * columns, "VERTICES", findings):
         return
@@ -150,7 +159,7 @@ def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mes
     if folded.any():
         row, column = (int(i) for i in np.argwhere(folded)[0])
         detail = f"the cell at row {row + 1}, column {column + 1} folds over another"
-        findings.add_at("M3D0409", table.place(row * columns + column), detail)
+        findings.add_at(catalogue.OVERLAPPING_CELLS, table.place(row * columns + column), detail)
         return None
     number = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
     na, nb, nc, nd = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings, Related
+from ..diagnostics import Findings, Related, catalogue
 from .transform import IDENTITY, Matrix, Transform
 from .values import Record
 
@@ -36,17 +36,17 @@ def check_reach(record: Record, findings: Findings) -> None:
         related = () if _within(part, record) else (Related(part.span, f"this {part.block}"),)
         place = part.span if _within(part, record) else record.span
         if not transform.is_finite:
-            findings.add_at("M3D0421", place, _BOTH, related=related)
+            findings.add_at(catalogue.NO_INVERSE, place, _BOTH, related=related)
             return
         reach = _reach(part, transform)
         if not reach <= FARTHEST:
             detail = f"with its transformations the {part.block} would reach to {_shown(reach)}"
-            findings.add_at("M3D0424", place, detail, related=related)
+            findings.add_at(catalogue.TOO_FAR, place, detail, related=related)
             return
     if record.block == "LIGHT":
         start = float(np.abs(parent.points(np.array(record.member("SOURCE").vector("FROM")))).max())
         if not start <= FARTHEST:
-            findings.add_at("M3D0424", record.span, f"transformed, its FROM would be at {_shown(start)}")
+            findings.add_at(catalogue.TOO_FAR, record.span, f"transformed, its FROM would be at {_shown(start)}")
 
 
 _BOTH = "with that of the primitive its numbers are too large or too small"

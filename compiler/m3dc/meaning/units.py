@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from ..diagnostics import Findings
+from ..diagnostics import Findings, catalogue
 from ..syntax import ast
 from ..text.span import Span
 from . import program
@@ -60,7 +60,7 @@ def report_radians(items: Iterable[tuple[int, tuple[Angle, ...]]], findings: Fin
             findings.base = base
             degrees = round(math.degrees(angle.value), 1)
             detail = f"{spelled(angle.value)} is in degrees; as radians it would be {degrees:g} degrees"
-            findings.add("M3D0528", angle.span, detail)
+            findings.add(catalogue.ANGLE_IN_RADIANS, angle.span, detail)
     findings.base = 0
 
 
@@ -82,7 +82,7 @@ def report_kelvin(profile: TableValue, findings: Findings) -> None:
             f"{coolest:g} to {hottest:g} are taken as degrees Celsius; kelvin less 273.15 would be "
             f"{coolest - 273.15:.6g} to {hottest - 273.15:.6g}"
         )
-        findings.add_at("M3D0525", profile.place(0), detail)
+        findings.add_at(catalogue.PROFILE_IN_KELVIN, profile.place(0), detail)
 
 
 def looks_like_bytes(components: Iterable[float]) -> bool:

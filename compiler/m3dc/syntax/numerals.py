@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ..diagnostics import Findings, Fix
+from ..diagnostics import Findings, Fix, catalogue
 from ..text.span import Span
 from . import ast
 
@@ -25,11 +25,11 @@ def read(text: bytes, span: Span, findings: Findings) -> ast.Number:
     if end < len(text):
         mended = mend(text)
         fix = Fix(f"Write {mended}", span, mended, certain=True) if mended else None
-        findings.add("M3D0104", (start + end, stop), _fault(text, end), fix=fix)
+        findings.add(catalogue.EXPECTED_DIGIT, (start + end, stop), _fault(text, end), fix=fix)
         return ast.Number(math.nan, span)
     value = float(text)
     if value in (float("inf"), float("-inf")):
-        findings.add("M3D0114", span, "the largest number is about 1.8e308")
+        findings.add(catalogue.NUMBER_TOO_LARGE, span, "the largest number is about 1.8e308")
         value = math.nan
     return ast.Number(value, span)
 

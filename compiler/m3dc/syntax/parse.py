@@ -17,7 +17,7 @@ import m3d_language
 from m3d_language.comments import outermost
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Diagnostic, Findings, Related
+from ..diagnostics import Diagnostic, Findings, Related, catalogue
 from ..text import long_tables
 from ..text.difference import Difference
 from ..text.places import REACH, Places
@@ -74,14 +74,18 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
     control = _find_control(data, outside)
     if control:
         found = f"it holds the byte {data[control[0]]:#04x}"
-        findings.add("M3D0113", (control[0], control[0] + 1), f"{found}; a scene is plain text, in UTF-8 or ASCII")
+        findings.add(
+            catalogue.NOT_A_TEXT_FILE,
+            (control[0], control[0] + 1),
+            f"{found}; a scene is plain text, in UTF-8 or ASCII",
+        )
         if len(control) > MOST_CONTROL or data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # the marks of UTF-16
             return Syntax(tree, iter(()))
     unclosed = _unclosed_comment(data, outside)
     if unclosed is not None:
         _report_unclosed_comment(data, unclosed, findings)
     elif all(node.type == "comment" for node in tree.root_node.children):
-        findings.add("M3D0112", (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
+        findings.add(catalogue.EMPTY_FILE, (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
     if not tree.root_node.has_error:
         whole = _Items(tree.root_node.children, ())
         return Syntax(tree, _items(whole, data, findings, before), broken=bool(findings.found))
@@ -92,12 +96,12 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
     recovered = recover(data, tree.root_node, end, findings, MOST_FAULTS)
     if recovered is None:
         place = findings.found[-1].span
-        findings.add("M3D0115", place, f"{MOST_FAULTS} syntax errors up to here")
+        findings.add(catalogue.TOO_MANY_ERRORS, place, f"{MOST_FAULTS} syntax errors up to here")
         return Syntax(tree, iter(()))
     if not findings.found:
         # Nothing that is broken is taken for a scene in silence.
         place = _first_error(tree.root_node)
-        findings.add("M3D0107", place, "this can not be read here")
+        findings.add(catalogue.INVALID_AT_TOP, place, "this can not be read here")
     apart = [
         node
         for node in tree.root_node.children
@@ -157,7 +161,7 @@ def _items(whole: _Items, data: bytes, findings: Findings, before: Parsed | None
         findings.base = start
         if len(findings.found) >= MOST_FOUND:
             found = f"{len(findings.found)} problems up to here; the rest of the text is not looked at"
-            findings.add("M3D0115", (0, 1), found)
+            findings.add(catalogue.TOO_MANY_ERRORS, (0, 1), found)
             return
         if not isinstance(each, Node):
             base, item = start if before is None else before.new_base(start), each.item
@@ -179,7 +183,7 @@ def _report_unclosed_comment(data: bytes, start: int, findings: Findings) -> Non
     if inner is not None and any(mark[0] == b"*/" for mark in marks):
         detail += "; comments nest: each /* needs its own"
         related = (Related(inner.span(), "a comment within it begins here"),)
-    findings.add("M3D0105", (start, start + 2), detail, related=related)
+    findings.add(catalogue.UNBALANCED_COMMENT, (start, start + 2), detail, related=related)
 
 
 def _first_error(root: Node) -> Span:
@@ -339,7 +343,9 @@ class _Builder:
     def item(self, node: Node, depth: int) -> ast.Item | None:
         """The item of a node, or None where there is too little of it."""
         if depth > ast.DEEPEST:
-            self._findings.add("M3D0111", self._span(node), f"no scene needs more than {ast.DEEPEST} levels")
+            self._findings.add(
+                catalogue.NESTED_TOO_DEEPLY, self._span(node), f"no scene needs more than {ast.DEEPEST} levels"
+            )
             return None
         fields = self._fields(node)
         keyword = self._keyword(fields)
@@ -384,7 +390,9 @@ class _Builder:
         name = ast.Name(self._text(node), self._span(node))
         longest = LANGUAGE.limits["identifier"]
         if len(name.text) > longest:
-            self._findings.add("M3D0110", name.span, f"at most {longest} characters, not {len(name.text)}")
+            self._findings.add(
+                catalogue.NAME_TOO_LONG, name.span, f"at most {longest} characters, not {len(name.text)}"
+            )
         return name
 
     def _declaration(self, node: Node) -> ast.Declaration | None:

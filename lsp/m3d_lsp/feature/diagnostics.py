@@ -5,6 +5,7 @@ from __future__ import annotations
 from lsprotocol import types
 
 from m3dc import Diagnostic
+from m3dc.diagnostics import catalogue
 
 from ..documentation import page_of
 from ..registry import request
@@ -16,13 +17,26 @@ SEVERITY = {
     "warning": types.DiagnosticSeverity.Warning,
     "hint": types.DiagnosticSeverity.Hint,
 }
-# A file that is still empty is no mistake while it is edited.
-EMPTY = "M3D0112"
 # What has no effect is shown faded.
 WITHOUT_EFFECT = {
-    "M3D0204", "M3D0503", "M3D0512", "M3D0514", "M3D0515", "M3D0516", "M3D0517", "M3D0518", "M3D0519", "M3D0520",
-    "M3D0521", "M3D0522", "M3D0524", "M3D0529",
-}  # fmt: skip
+    entry.code
+    for entry in (
+        catalogue.ASSIGNED_TO_ITSELF,
+        catalogue.UNUSED_VARIABLE,
+        catalogue.OVERWRITTEN,
+        catalogue.PHONG_WITHOUT_NORMALS,
+        catalogue.IDLE_IN_LIGHT,
+        catalogue.NO_WAVE,
+        catalogue.IDLE_IN_TEXTURE,
+        catalogue.BLEND_ON_PLANE,
+        catalogue.BACKGROUND_NEVER_SEEN,
+        catalogue.AMBIENT_NOT_SAMPLED,
+        catalogue.NOSHADOWS_WITHOUT_SHADOWS,
+        catalogue.IDLE_IN_SURFACE,
+        catalogue.UNUSED_VALUE,
+        catalogue.HEIGHTS_OF_PLANES,
+    )
+}
 
 
 def of(snapshot: Snapshot) -> list[types.Diagnostic]:
@@ -41,7 +55,8 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
     """A diagnostic in LSP's form."""
     client = snapshot.client
     page = page_of(diagnostic.code) if client.pages_of_codes else None
-    empty = diagnostic.code == EMPTY
+    # A file that is still empty is no mistake while it is edited.
+    empty = diagnostic.code == catalogue.EMPTY_FILE.code
     return types.Diagnostic(
         snapshot.range(diagnostic.span),
         diagnostic.message,

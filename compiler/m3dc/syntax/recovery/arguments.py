@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from m3d_language.table import Block, Statement
 
+from ...diagnostics import catalogue
 from ...diagnostics.spelling import certain
 from ...diagnostics.words import members, takes
 from .. import ast
@@ -52,7 +53,9 @@ def _extra_commas(cursor: Cursor, wanted: int) -> bool:
     likely one too many than a number is missing: whether that was reported."""
     omitted = cursor.peek().kind == "," and wanted > 1
     if omitted:
-        cursor.faults.add("M3D0103", cursor.peek().span, "found ','; a number stands before and after each comma")
+        cursor.faults.add(
+            catalogue.EXPECTED_NUMBER, cursor.peek().span, "found ','; a number stands before and after each comma"
+        )
         cursor.doubtful = True
     while cursor.peek().kind == ",":
         comma = cursor.next()

@@ -6,6 +6,7 @@ import re
 
 from m3d_language.table import LANGUAGE, Block
 
+from ...diagnostics import catalogue
 from ...diagnostics.spelling import certain, nearest
 from ...diagnostics.words import CAPITALS, members, place_of, statement_of
 from .. import ast, numerals
@@ -164,7 +165,7 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
     fits = [keyword for keyword in members(block) if _fits(cursor, keyword, block)]
     spelt = word.text.upper()
     meant = certain(word.text, fits)
-    code = "M3D0106" if block is not None else "M3D0107"
+    entry = catalogue.INVALID_IN_BLOCK if block is not None else catalogue.INVALID_AT_TOP
     fill = statement_of(block.keyword) if block is not None else ""
     if meant is not None:
         capitals = meant == spelt
@@ -173,7 +174,7 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
         kind = "capitals" if capitals else None
         edits = [(word.span, meant)]
         cursor.faults.add(
-            code, word.span, f"{wording.found(word)}; {says}", fill=fill, edits=edits, title=title, kind=kind
+            entry, word.span, f"{wording.found(word)}; {says}", fill=fill, edits=edits, title=title, kind=kind
         )
         return read_keyword_member(cursor, block, word, meant)
     cursor.doubtful = True
@@ -184,7 +185,7 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
         says = f"did you mean {near}?"
     else:
         says = _unknown(cursor, word, block)
-    cursor.faults.add(code, word.span, f"{wording.found(word)}; {says}", fill=fill)
+    cursor.faults.add(entry, word.span, f"{wording.found(word)}; {says}", fill=fill)
     if near is not None and spelt not in LANGUAGE.keywords and word.text.lower() not in LANGUAGE.elsewhere:
         return read_keyword_member(cursor, block, word, near)
     skip.unknown(cursor)
@@ -235,7 +236,7 @@ def read_assignment(cursor: Cursor) -> ast.Assignment | None:
             cursor.next()
         else:
             edits = [(colon.span, " =")]
-            cursor.faults.add("M3D0101", colon.span, "found ':'", fill="=", edits=edits, title="Write '='")
+            cursor.faults.add(catalogue.MISSING_MARK, colon.span, "found ':'", fill="=", edits=edits, title="Write '='")
     elif cursor.peek().kind == "=":
         cursor.next()
     elif cursor.peek().kind in ("number", "<"):
@@ -249,7 +250,7 @@ def read_assignment(cursor: Cursor) -> ast.Assignment | None:
     if token.kind == "keyword" and token.text in LANGUAGE.types and cursor.peek(1).kind == "{":
         edits = [((token.start, cursor.peek(1).start), "")]
         detail = f"{wording.found(token)}; the variable's type is known, its block stands alone"
-        cursor.faults.add("M3D0117", token.span, detail, fill=token.text, edits=edits, title="Remove it")
+        cursor.faults.add(catalogue.SUPERFLUOUS, token.span, detail, fill=token.text, edits=edits, title="Remove it")
         cursor.next()
         body = _body(cursor, token, LANGUAGE.blocks.get(token.text))
     elif token.kind == "{" and not is_bracketed(cursor):
@@ -263,7 +264,7 @@ def read_assignment(cursor: Cursor) -> ast.Assignment | None:
             value = None
     else:
         says = f"{wording.found(token)}; a vector < x, y, z > or a block could stand here too"
-        cursor.faults.add("M3D0103", cursor.place(token), says)
+        cursor.faults.add(catalogue.EXPECTED_NUMBER, cursor.place(token), says)
         cursor.doubtful = True
     if value is None and body is None:
         cursor.doubtful = True

@@ -5,7 +5,7 @@ from __future__ import annotations
 from m3d_language.comments import blank_comments
 from m3d_language.table import LANGUAGE
 
-from ...diagnostics import Related
+from ...diagnostics import Related, catalogue
 from ...text.span import Span
 from .. import ast
 from . import wording
@@ -129,7 +129,9 @@ class Cursor:
         longest = LANGUAGE.limits["identifier"]
         if len(name.text) > longest:
             span = (name.span[0] + self.start, name.span[1] + self.start)
-            self.faults.findings.add("M3D0110", span, f"at most {longest} characters, not {len(name.text)}")
+            self.faults.findings.add(
+                catalogue.NAME_TOO_LONG, span, f"at most {longest} characters, not {len(name.text)}"
+            )
 
     def ends_all(self, token: Token) -> bool:
         """Whether a token, within a block, begins an item of the top level: the block is not closed then."""
@@ -150,7 +152,7 @@ class Cursor:
         related = (Related((begin, begin + 1), "the block that is open begins here"),)
         new = _closing(self.data, begin, at)
         self.faults.add(
-            "M3D0101",
+            catalogue.MISSING_MARK,
             (at, at),
             detail,
             fill="}",
@@ -169,7 +171,7 @@ class Cursor:
         # An = might make an assignment of something else; two names might be meant as one, and a sign as a sum.
         sure = mark in ";>" or (mark == "," and token.kind == "number" and token.text[0] not in "+-")
         self.faults.add(
-            "M3D0101",
+            catalogue.MISSING_MARK,
             self.place(token),
             wording.found(token),
             fill=mark,

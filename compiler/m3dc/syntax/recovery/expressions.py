@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...diagnostics import catalogue
 from . import skip
 from .calculation import calculated
 from .cursor import Cursor
@@ -54,7 +55,7 @@ def report_expression(cursor: Cursor, first: Token) -> None:
     says = f"found {text.decode('utf-8', 'replace')!r}; write "
     says += f"its result, {result}" if result else "its result, or the name of a variable that has it"
     edits = [(span, result)] if result else None
-    cursor.faults.add("M3D0118", span, says, edits=edits, title=f"Write {result}")
+    cursor.faults.add(catalogue.NO_EXPRESSIONS, span, says, edits=edits, title=f"Write {result}")
     cursor.doubtful = True
 
 

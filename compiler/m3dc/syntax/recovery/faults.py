@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from m3d_language.table import Block
 
-from ...diagnostics import Findings, Fix, Related
+from ...diagnostics import Findings, Fix, Related, catalogue
+from ...diagnostics.catalogue import Entry
 from ...diagnostics.words import statement_of
 from ...text.span import Span
 from .lexer import Token
@@ -45,23 +46,23 @@ class Faults:
             return
         if kind == "blank":
             says = f"found a {text}; an ordinary blank looks the same"
-            self.add("M3D0119", span, says, edits=[(span, " ")],
+            self.add(catalogue.INVISIBLE_CHARACTER, span, says, edits=[(span, " ")],
                         title="Write a blank", kind="blank")  # fmt: skip
             return
         if kind == "conflict":
             says = f"{text[:7]} is a mark of two versions that could not be merged: keep one, and remove the marks"
-            self.add("M3D0107", span, says, kind="conflict")
+            self.add(catalogue.INVALID_AT_TOP, span, says, kind="conflict")
             return
         mark = re.match(r"//+|#+!?|<!--|--|%+|;+", text)
         assert mark is not None
         inner = text[mark.end() :].removesuffix("-->").strip()
         edits = [(span, f"/* {inner} */")] if "*/" not in inner and "/*" not in inner else None
-        self.add("M3D0116", span, "a comment stands between /* and */", edits=edits,
+        self.add(catalogue.NOT_A_COMMENT, span, "a comment stands between /* and */", edits=edits,
                     title="Write /* */", kind="comment")  # fmt: skip
 
     def add(
         self,
-        code: str,
+        entry: Entry,
         span: Span,
         detail: str,
         *,
@@ -84,7 +85,7 @@ class Faults:
         if len(self.findings.found) >= self._most:
             raise TooManyError
         index = len(self.findings.found)
-        self.findings.add(code, span, detail, fill=fill, related=related)
+        self.findings.add(entry, span, detail, fill=fill, related=related)
         self._habits[kind or f"#{index}"] = _Habit(index, title, None if edits is None else list(edits), sure)
 
     def forget_from(self, mark: int) -> None:
@@ -112,15 +113,15 @@ class Faults:
 
     def superfluous(self, token: Token, says: str, *, sure: bool = True) -> None:
         """Report a token that is one too many."""
-        self.add("M3D0117", token.span, says, fill=f"'{token.text}'", edits=[(token.span, "")],
+        self.add(catalogue.SUPERFLUOUS, token.span, says, fill=f"'{token.text}'", edits=[(token.span, "")],
                     title=f"Remove '{token.text}'", kind=token.text, sure=sure)  # fmt: skip
 
     def invalid(self, block: Block | None, span: Span, detail: str, *, edits: list[tuple[Span, str]] | None = None,
                  title: str = "", kind: str | None = None) -> None:  # fmt: skip
         """Report what cannot stand in a block, or at the top level."""
-        code = "M3D0107" if block is None else "M3D0106"
+        entry = catalogue.INVALID_AT_TOP if block is None else catalogue.INVALID_IN_BLOCK
         fill = "" if block is None else statement_of(block.keyword)
-        self.add(code, span, detail, fill=fill, edits=edits, title=title, kind=kind)
+        self.add(entry, span, detail, fill=fill, edits=edits, title=title, kind=kind)
 
 
 def _apart(data: bytes, edit: tuple[Span, str]) -> tuple[Span, str]:

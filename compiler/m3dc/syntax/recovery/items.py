@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from m3d_language.table import LANGUAGE
 
+from ...diagnostics import catalogue
 from ...diagnostics.spelling import certain, nearest
 from ...diagnostics.words import CAPITALS, members, place_of
 from .. import ast
@@ -40,7 +41,7 @@ def _word(cursor: Cursor) -> ast.Item | None:
     word, after = cursor.peek(), cursor.peek(1)
     if cursor.hyphen_follows(1):
         word = cursor.hyphened()
-        cursor.faults.add("M3D0108", word.span, f"found {word.text!r}; {wording.LETTERS}")
+        cursor.faults.add(catalogue.INVALID_NAME, word.span, f"found {word.text!r}; {wording.LETTERS}")
         skip.group(cursor) if cursor.peek().kind == "{" else skip.lines(cursor)
         cursor.doubtful = True
         return None
@@ -64,7 +65,7 @@ def _word(cursor: Cursor) -> ast.Item | None:
     if says is None and word.text.upper() in LANGUAGE.keywords:
         says = f"{place_of(word.text.upper(), ())}; {CAPITALS}"
     says = says or (f"did you mean {near}?" if near else f"a file holds {wording.TOP_LEVEL}")
-    cursor.faults.add("M3D0107", word.span, f"found {word.text!r}; {says}")
+    cursor.faults.add(catalogue.INVALID_AT_TOP, word.span, f"found {word.text!r}; {says}")
     skip.lines(cursor)
     cursor.doubtful = True
     return None
@@ -78,7 +79,7 @@ def _changed(cursor: Cursor) -> None:
         cursor.next()
     span = (name.start, cursor.before)
     text = cursor.data[span[0] : span[1]].decode("utf-8", "replace")
-    cursor.faults.add("M3D0118", span, f"found {text!r}; write the result: {name.text} = ..")
+    cursor.faults.add(catalogue.NO_EXPRESSIONS, span, f"found {text!r}; write the result: {name.text} = ..")
     if cursor.peek().kind == ";":
         cursor.next()
     cursor.doubtful = True
@@ -100,7 +101,9 @@ def _declared_outside(cursor: Cursor) -> None:
     cursor.names.add(name.text)
     type_ = first.text if first.text in LANGUAGE.types else nearest(first.text, LANGUAGE.types) or "NUMBER"
     says = f"variables are declared in VARIABLES {{ {type_} {name.text}; }} and assigned to after it"
-    cursor.faults.add("M3D0107", first.span, f"{wording.found(first)}; {says}", kind="declaration outside")
+    cursor.faults.add(
+        catalogue.INVALID_AT_TOP, first.span, f"{wording.found(first)}; {says}", kind="declaration outside"
+    )
     cursor.doubtful = True
     while (token := cursor.peek()).kind not in ("end", "}"):
         if token.kind == ";":

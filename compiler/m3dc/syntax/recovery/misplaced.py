@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from m3d_language.table import LANGUAGE, Block
 
+from ...diagnostics import catalogue
+from ...diagnostics.catalogue import Entry
 from ...diagnostics.spelling import certain
 from ...diagnostics.words import members
 from . import skip, wording
@@ -11,7 +13,7 @@ from .cursor import Cursor
 from .lexer import CLOSERS, Token
 
 
-def pass_misplaced(cursor: Cursor, block: Block | None, code: str = "") -> None:
+def pass_misplaced(cursor: Cursor, block: Block | None, entry: Entry | None = None) -> None:
     """Pass what can not stand here, and say so."""
     token = cursor.next()
     after = cursor.peek()
@@ -39,7 +41,13 @@ def pass_misplaced(cursor: Cursor, block: Block | None, code: str = "") -> None:
     elif token.text == "*/":
         detail = "this closes a comment that was never opened"
         cursor.faults.add(
-            "M3D0105", token.span, detail, edits=[(token.span, "")], title="Remove it", kind="*/", sure=False
+            catalogue.UNBALANCED_COMMENT,
+            token.span,
+            detail,
+            edits=[(token.span, "")],
+            title="Remove it",
+            kind="*/",
+            sure=False,
         )
     elif token.kind == "hash":
         _directive(cursor, token)
@@ -61,8 +69,8 @@ def pass_misplaced(cursor: Cursor, block: Block | None, code: str = "") -> None:
             says += "; a scene needs no marks between its parts"
         elif token.kind == "other" and token.text not in CLOSERS.values():
             says += "; it has no meaning in a scene: remove it"
-        if code:
-            cursor.faults.add(code, token.span, says)
+        if entry is not None:
+            cursor.faults.add(entry, token.span, says)
         else:
             cursor.faults.invalid(block, token.span, says)
         cursor.doubtful = True
@@ -93,7 +101,7 @@ def _directive(cursor: Cursor, token: Token) -> None:
         says = f"{wording.found(token)}; a comment stands between /* and */"
     else:
         says = wording.found(token)
-    cursor.faults.add("M3D0107", token.span, says)
+    cursor.faults.add(catalogue.INVALID_AT_TOP, token.span, says)
     cursor.doubtful = True
     while (next_ := cursor.peek()).kind not in ("end", "}", "keyword") and not next_.first:
         if next_.kind == "{":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from ...diagnostics import catalogue
 from ...diagnostics.words import members
 from .. import ast
 from . import skip, wording
@@ -32,7 +33,7 @@ def open_block(cursor: Cursor, keyword: Token, *, variable: bool = False) -> boo
     also = "; the name of a variable could stand here too" if variable else ""
     if token.text in ("(", "[", ":"):
         also = "; what belongs to a block stands between { and }"
-    cursor.faults.add("M3D0101", cursor.place(token), f"{wording.found(token)}{also}", fill="{")
+    cursor.faults.add(catalogue.MISSING_MARK, cursor.place(token), f"{wording.found(token)}{also}", fill="{")
     if token.text in ("(", "["):
         cursor.doubtful = True
         skip.all_brackets(cursor)
@@ -102,7 +103,7 @@ def pass_too_deep(cursor: Cursor, keyword: Token) -> None:
     """Pass a block that is nested too deeply."""
     if not cursor.too_deep:
         span = (keyword.start, min(cursor.peek().end, cursor.lexer.end))
-        cursor.faults.add("M3D0111", span, f"no scene needs more than {ast.DEEPEST} levels")
+        cursor.faults.add(catalogue.NESTED_TOO_DEEPLY, span, f"no scene needs more than {ast.DEEPEST} levels")
     cursor.too_deep = cursor.doubtful = True
     cursor.open.pop()
     depth = 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...diagnostics import Findings
+from ...diagnostics import Findings, catalogue
 from ...text.span import Span
 from .. import ast
 from .cursor import Cursor
@@ -83,7 +83,7 @@ class Reader:
                 faults.forget_from(mark)
                 closed, strict = again.closed, True
         if cursor.peek().start == start and cursor.before <= start:
-            faults.add("M3D0107", cursor.next().span, "this can not be read here")
+            faults.add(catalogue.INVALID_AT_TOP, cursor.next().span, "this can not be read here")
         if item is not None:
             faults.settle()
         if cursor.doubtful and isinstance(item, ast.Assignment):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from m3d_language.table import LANGUAGE
 
+from ...diagnostics import catalogue
 from ...diagnostics.words import members
 from .braces import brace_faults
 from .cursor import Cursor, unheard
@@ -29,7 +30,13 @@ def pass_stray_brace(cursor: Cursor) -> None:
         extra, detail = close, f"this brace closes the {keyword}, and {between} after it stands in it"
     edits, kind = [((extra, extra + 1), "")], "}" if extra == brace.start else None
     cursor.faults.add(
-        "M3D0107", (extra, extra + 1), detail, edits=edits, title="Remove this brace", kind=kind, sure=False
+        catalogue.INVALID_AT_TOP,
+        (extra, extra + 1),
+        detail,
+        edits=edits,
+        title="Remove this brace",
+        kind=kind,
+        sure=False,
     )
     if extra == brace.start:
         cursor.next()

@@ -6,6 +6,7 @@ import re
 
 from m3d_language.table import Block
 
+from ...diagnostics import catalogue
 from ...text.span import Span
 from .. import ast
 from . import skip, wording
@@ -42,7 +43,7 @@ def read_table(cursor: Cursor, keyword: ast.Keyword, token: Token, block: Block 
             entries += [value] if value is not None else []
         elif next_.kind in CLOSERS or next_.text in CLOSERS or next_.text in CLOSERS.values():
             says = f"{wording.found(next_)}; a table holds numbers and vectors, without braces between them"
-            cursor.faults.add("M3D0103", next_.span, says, kind="table braces")
+            cursor.faults.add(catalogue.EXPECTED_NUMBER, next_.span, says, kind="table braces")
             cursor.doubtful = True
             cursor.next()
             if next_.kind == "{":

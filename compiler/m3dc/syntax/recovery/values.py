@@ -6,6 +6,7 @@ import re
 
 from m3d_language.table import LANGUAGE
 
+from ...diagnostics import catalogue
 from ...diagnostics.spelling import certain
 from ...text.span import Span
 from .. import ast, numerals
@@ -76,7 +77,7 @@ def report_bare_vector(cursor: Cursor, first: Token) -> None:
     edits = [((first.start, cursor.before), f"< {', '.join(numbers)} >")] if len(numbers) == 3 else None
     title = f"Write {edits[0][1]}" if edits else ""
     span = (first.start, cursor.before)
-    cursor.faults.add("M3D0102", span, "a vector stands between < and >", edits=edits, title=title)
+    cursor.faults.add(catalogue.EXPECTED_VECTOR, span, "a vector stands between < and >", edits=edits, title=title)
     cursor.doubtful = True
 
 
@@ -121,7 +122,9 @@ def _name_or_call(cursor: Cursor, token: Token, shape: str | None) -> ast.Argume
         cursor.next()
         text = f"< {after.text}, {after.text}, {after.text} >"
         span = (token.start, after.end)
-        cursor.faults.add("M3D0102", span, "a colour is three numbers", edits=[(span, text)], title=f"Write {text}")
+        cursor.faults.add(
+            catalogue.EXPECTED_VECTOR, span, "a colour is three numbers", edits=[(span, text)], title=f"Write {text}"
+        )
         cursor.doubtful = True
         return None
     name = ast.Name(token.text, cursor.relative(token.span))
@@ -133,9 +136,11 @@ def _hash(cursor: Cursor, token: Token) -> ast.Argument | None:
     if _HEX_COLOUR.fullmatch(token.text):
         text = colour_of(token.text)
         says = f"{wording.found(token)}; a colour is three numbers between 0 and 1: {text}"
-        cursor.faults.add("M3D0102", token.span, says, edits=[(token.span, text)], title=f"Write {text}")
+        cursor.faults.add(
+            catalogue.EXPECTED_VECTOR, token.span, says, edits=[(token.span, text)], title=f"Write {text}"
+        )
     else:
-        cursor.faults.add("M3D0107", token.span, wording.found(token))
+        cursor.faults.add(catalogue.INVALID_AT_TOP, token.span, wording.found(token))
     cursor.doubtful = True
     return None
 
@@ -160,7 +165,7 @@ def _sign(cursor: Cursor, token: Token) -> ast.Argument | None:
         )  # fmt: skip
         sign = "-" if token.text in _DASHES else token.text
         edits = [((token.start, after.start), sign)]
-        cursor.faults.add("M3D0103", token.span, says, edits=edits, title=f"Write {sign}{after.text}")
+        cursor.faults.add(catalogue.EXPECTED_NUMBER, token.span, says, edits=edits, title=f"Write {sign}{after.text}")
         number = _number(cursor, after.span)
         return number._replace(value=-number.value if sign == "-" else number.value,
                                span=cursor.relative((token.start, after.end)))  # fmt: skip
@@ -172,7 +177,7 @@ def _sign(cursor: Cursor, token: Token) -> ast.Argument | None:
             skip.brackets(cursor)
         says = f"{wording.found(token)}; a sign belongs to a number, not to a "
         says += "vector: write it in front of each" if after.kind == "<" else "variable: write another variable"
-        cursor.faults.add("M3D0118", (token.start, cursor.before), says)
+        cursor.faults.add(catalogue.NO_EXPRESSIONS, (token.start, cursor.before), says)
     else:
         cursor.invalid_here(token.span, wording.found(token))
     cursor.doubtful = True
@@ -210,22 +215,32 @@ def _bracketed(cursor: Cursor, opener: Token, shape: str | None, word: Token | N
         if word is not None and word.text.lower() == "rgb" and len(values) == 3 and 1 < max(values) <= 255:
             new = f"< {', '.join(f'{round(value / 255, 3):g}' for value in values)} >"
             says = f"a colour is three numbers between 0 and 1: {new}"
-            cursor.faults.add("M3D0102", span, says, edits=[(span, new)], title=f"Write {new}")
+            cursor.faults.add(catalogue.EXPECTED_VECTOR, span, says, edits=[(span, new)], title=f"Write {new}")
             cursor.doubtful = True
             return None
-        cursor.faults.add("M3D0102", span, "a vector stands between < and >", edits=[(span, new)], title=f"Write {new}")
+        cursor.faults.add(
+            catalogue.EXPECTED_VECTOR,
+            span,
+            "a vector stands between < and >",
+            edits=[(span, new)],
+            title=f"Write {new}",
+        )
         components = tuple(each for each in inside if not isinstance(each, ast.Vector))
         return ast.Vector(components, cursor.relative(span))
     cursor.doubtful = True
     if simple and len(inside) == 1:
         detail = "a number stands alone, without brackets"
         cursor.faults.add(
-            "M3D0103", first.span, f"{wording.found(first)}; {detail}", edits=[(span, text)], title=f"Write {text}"
+            catalogue.EXPECTED_NUMBER,
+            first.span,
+            f"{wording.found(first)}; {detail}",
+            edits=[(span, text)],
+            title=f"Write {text}",
         )
         cursor.doubtful = False
         return inside[0]
     if shape == "vector":
-        cursor.faults.add("M3D0102", span, "a vector is three numbers < x, y, z >")
+        cursor.faults.add(catalogue.EXPECTED_VECTOR, span, "a vector is three numbers < x, y, z >")
     else:
         report_expression(cursor, first)
     return None
@@ -254,7 +269,7 @@ def _vector(cursor: Cursor, opener: Token) -> ast.Vector | None:
                 says = f"{wording.found(token)}; a vector has three numbers < x, y, z >"
                 if _DECIMAL_COMMA.search(cursor.data, opener.end, token.end):
                     says += "; a decimal point is a point, as in 2.5"
-                cursor.faults.add("M3D0101", token.span, says, fill=">")
+                cursor.faults.add(catalogue.MISSING_MARK, token.span, says, fill=">")
                 cursor.doubtful = True
                 while cursor.peek().kind in (",", "number", "word"):
                     cursor.next()
@@ -270,15 +285,15 @@ def _vector(cursor: Cursor, opener: Token) -> ast.Vector | None:
     count = len(components)
     if count < 3:
         says = f"{wording.found(token)}; a vector has three numbers < x, y, z >"
-        code, fill = ("M3D0101", ",") if count else ("M3D0103", "")
-        cursor.faults.add(code, cursor.place(token), says, fill=fill)
+        entry, fill = (catalogue.MISSING_MARK, ",") if count else (catalogue.EXPECTED_NUMBER, "")
+        cursor.faults.add(entry, cursor.place(token), says, fill=fill)
         cursor.doubtful = True
         good = False
     if token.kind == ">":
         cursor.next()
         if doubled and cursor.peek().kind == ">":
             more = cursor.next()
-            cursor.faults.add("M3D0117", more.span, "", edits=[(more.span, "")], kind="<")
+            cursor.faults.add(catalogue.SUPERFLUOUS, more.span, "", edits=[(more.span, "")], kind="<")
     elif count >= 3 or token.kind in ("}", "keyword", "end", "word"):
         if count >= 3:
             _close_vector(cursor, token)
@@ -292,19 +307,27 @@ def _vector(cursor: Cursor, opener: Token) -> ast.Vector | None:
 def _close_vector(cursor: Cursor, token: Token) -> None:
     if token.text in (")", "]"):
         cursor.faults.add(
-            "M3D0101", token.span, wording.found(token), fill=">", edits=[(token.span, ">")], title="Write '>'"
+            catalogue.MISSING_MARK,
+            token.span,
+            wording.found(token),
+            fill=">",
+            edits=[(token.span, ">")],
+            title="Write '>'",
         )
         cursor.next()
         return
     if token.kind == "number":
         cursor.faults.add(
-            "M3D0101", token.span, f"{wording.found(token)}; a vector has three numbers < x, y, z >", fill=">"
+            catalogue.MISSING_MARK,
+            token.span,
+            f"{wording.found(token)}; a vector has three numbers < x, y, z >",
+            fill=">",
         )
         cursor.doubtful = True
         skip.rest_of_vector(cursor)
         return
     if token.kind == "other" or token.kind in (";", "string", "name", "hash"):
-        cursor.faults.add("M3D0101", token.span, wording.found(token), fill=">")
+        cursor.faults.add(catalogue.MISSING_MARK, token.span, wording.found(token), fill=">")
         cursor.doubtful = True
         skip.rest_of_vector(cursor)
         return

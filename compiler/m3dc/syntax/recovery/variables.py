@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from m3d_language.table import LANGUAGE
 
+from ...diagnostics import catalogue
 from .. import ast
 from . import skip, wording
 from .cursor import Cursor
@@ -31,7 +32,7 @@ def read_variables(cursor: Cursor, word: Token | None = None) -> ast.Variables:
             declaration = _declaration(cursor)
             declarations += [declaration] if declaration else []
         else:
-            pass_misplaced(cursor, None, code="M3D0109")
+            pass_misplaced(cursor, None, catalogue.INVALID_TYPE)
     for declaration in declarations:
         cursor.types |= {name.text: declaration.type.text for name in declaration.names}
     return ast.Variables(known, tuple(declarations), cursor.since(keyword))
@@ -60,7 +61,7 @@ def _declaration(cursor: Cursor) -> ast.Declaration | None:
         kind = cursor.next()
         edits = [((first.start, kind.end), f"{kind.text} {first.text}")]
         cursor.faults.add(
-            "M3D0109",
+            catalogue.INVALID_TYPE,
             first.span,
             "the type comes first",
             edits=edits,
@@ -76,14 +77,14 @@ def _declaration(cursor: Cursor) -> ast.Declaration | None:
         detail = f"found {first.text!r}; a declaration is a type and a name, such as NUMBER {first.text};"
         if after.kind == "=":
             detail = f"{first.text} is assigned a value here; that is done outside VARIABLES"
-        cursor.faults.add("M3D0109", first.span, detail, kind="no type")
+        cursor.faults.add(catalogue.INVALID_TYPE, first.span, detail, kind="no type")
         skip.declaration(cursor)
         return None
     if first.kind == "word" and after.kind == "keyword" and not after.first and cursor.peek(1).kind == "word":
         detail = f"found {first.text!r}; a declaration is a type and a name, such as {after.text} size;"
         edits = [((first.start, after.start), "")]
         cursor.faults.add(
-            "M3D0109", first.span, detail, edits=edits, title="Remove it", kind="before a type", sure=False
+            catalogue.INVALID_TYPE, first.span, detail, edits=edits, title="Remove it", kind="before a type", sure=False
         )
         first = cursor.next()
         type_ = cursor.keyword(first)
@@ -95,7 +96,7 @@ def _declaration(cursor: Cursor) -> ast.Declaration | None:
             break
         if cursor.hyphen_follows(1):
             name = cursor.hyphened()
-            cursor.faults.add("M3D0108", name.span, f"found {name.text!r}; {wording.LETTERS}")
+            cursor.faults.add(catalogue.INVALID_NAME, name.span, f"found {name.text!r}; {wording.LETTERS}")
             cursor.names.add(name.text)
             skip.declaration(cursor)
             break
@@ -113,7 +114,7 @@ def _declaration(cursor: Cursor) -> ast.Declaration | None:
 
 def _no_name(cursor: Cursor, token: Token) -> None:
     cursor.faults.add(
-        "M3D0108", token.span, f"{wording.found(token)}; a name starts with a letter and is not a keyword"
+        catalogue.INVALID_NAME, token.span, f"{wording.found(token)}; a name starts with a letter and is not a keyword"
     )
     cursor.doubtful = True
     if token.kind not in ("}", "end", ";") and not (token.first and token.kind == "keyword"):
@@ -139,7 +140,7 @@ def _declaration_end(cursor: Cursor) -> None:
         detail += "; a variable is assigned to outside VARIABLES, after it"
     name = cursor.data[: cursor.before].rsplit(None, 1)[-1] if cursor.before < 300 else _last_word(cursor)
     cursor.names.add(name.decode("utf-8", "replace").rsplit(",", 1)[-1])
-    cursor.faults.add("M3D0101", token.span, detail, fill=";", kind="value")
+    cursor.faults.add(catalogue.MISSING_MARK, token.span, detail, fill=";", kind="value")
     skip.declaration(cursor)
 
 

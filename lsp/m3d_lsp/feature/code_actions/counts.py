@@ -8,10 +8,13 @@ from collections.abc import Iterator
 from lsprotocol import types
 
 import m3dc
+from m3dc.diagnostics import catalogue
 from m3dc.meaning import program
 from m3dc.syntax.parse import ast
 
 from .action import Action, Edit, Site
+
+MISCOUNTED = {catalogue.MORE_ROWS_THAN_SPECIFIED.code, catalogue.FEWER_ROWS_THAN_SPECIFIED.code}
 
 _NUMERAL = re.compile(rb"[^\s<>,{}/]+")
 
@@ -23,7 +26,7 @@ def find(site: Site) -> Iterator[Action]:
     about = site.real(table.span) if isinstance(table, ast.Table) else site.span
     for diagnostic in site.analysis.diagnostics:
         here = diagnostic in site.found or about[0] <= diagnostic.span[0] < about[1]
-        if diagnostic.code not in ("M3D0405", "M3D0406") or not here:
+        if diagnostic.code not in MISCOUNTED or not here:
             continue
         place = site.at(diagnostic.span[0])
         table = place.path[-1] if place.path else None

@@ -12,6 +12,7 @@ from lsprotocol import types
 
 from m3d_language.table import LANGUAGE, Argument, Block, Default
 from m3dc import Diagnostic
+from m3dc.diagnostics import catalogue
 from m3dc.meaning.values import spelled
 from m3dc.syntax.parse import ast
 
@@ -25,7 +26,7 @@ MOST = 3  # types to choose from, where a use does not tell
 def find(site: Site) -> Iterator[Action]:
     """For each undeclared name here."""
     for diagnostic in site.found:
-        if diagnostic.code != "M3D0202":
+        if diagnostic.code != catalogue.UNDEFINED_NAME.code:
             continue
         use = site.at(diagnostic.span[0])
         name = site.text(diagnostic.span)

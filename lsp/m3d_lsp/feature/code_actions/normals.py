@@ -15,6 +15,7 @@ from lsprotocol import types
 from numpy.typing import NDArray
 
 from m3d_language import blank_comments
+from m3dc.diagnostics import catalogue
 from m3dc.meaning.transform import unit
 from m3dc.meaning.values import Mesh, Record, spelled
 from m3dc.syntax.parse import ast
@@ -23,7 +24,6 @@ from ...standing import standing
 from .action import Action, Edit, Site
 
 FLAT, SMOOTH, FLAG = "FACETS", "SFACETS", "PHONG"
-NO_EFFECT = "M3D0514"
 SHARP = math.cos(math.radians(60))
 DIGITS = 4
 
@@ -37,7 +37,7 @@ def find(site: Site) -> Iterator[Action]:
         record = _record(site, table)
         if record is not None:
             title = f"Write {SMOOTH} with computed normals"
-            mends = tuple(d for d in site.found if d.code == NO_EFFECT)
+            mends = tuple(d for d in site.found if d.code == catalogue.PHONG_WITHOUT_NORMALS.code)
             kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
             yield Action(title, kind, [], mends, later=lambda: [_rewritten(site, table, record)])
 

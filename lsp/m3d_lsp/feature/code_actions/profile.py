@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from lsprotocol import types
 
+from m3dc.diagnostics import catalogue
 from m3dc.syntax.parse import ast
 
 from ...standing import standing
@@ -22,7 +23,8 @@ def find(site: Site) -> Iterator[Action]:
         return
     edit = _sorted(site, table)
     if edit is not None:
-        mends = tuple(d for d in site.analysis.diagnostics if d.code == "M3D0411" and _is_in(d.span, site, table))
+        unsorted = (d for d in site.analysis.diagnostics if d.code == catalogue.PROFILE_NOT_INCREASING.code)
+        mends = tuple(d for d in unsorted if _is_in(d.span, site, table))
         kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
         yield Action("Sort the points from low to high", kind, [edit], mends)
 

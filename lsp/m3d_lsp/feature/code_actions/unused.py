@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
+from m3dc.diagnostics import catalogue
 from m3dc.syntax.parse import ast
 from m3dc.text.cut import cut
 
@@ -17,8 +18,10 @@ from .action import Action, Site
 def find(site: Site) -> Iterator[Action]:
     """For each unused variable here."""
     for diagnostic in site.found:
+        if diagnostic.code != catalogue.UNUSED_VARIABLE.code:
+            continue
         name = site.text(diagnostic.span)
-        if diagnostic.code == "M3D0503" and not any(o.role is Role.USE for o in names(site.analysis).of(name)):
+        if not any(o.role is Role.USE for o in names(site.analysis).of(name)):
             edits = [(span, "") for span in places_of(site, name)]
             title = f"Remove the unused variable {name}"
             yield Action(title, types.CodeActionKind.QuickFix, edits, (diagnostic,))

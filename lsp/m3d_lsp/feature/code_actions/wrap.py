@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from lsprotocol import types
 
 from m3d_language.table import LANGUAGE
+from m3dc.diagnostics import catalogue
 from m3dc.syntax.parse import ast
 
 from .action import Action, Edit, Site
 
-MISPLACED = "M3D0107"
 INDENT = "    "
 
 
@@ -19,7 +19,7 @@ def find(site: Site) -> Iterator[Action]:
     """For the misplaced thing here, with those that follow or precede it and belong into the same block."""
     top = site.top
     parent = None if top is None else _parent(top.item)
-    mended = [d for d in site.analysis.diagnostics if d.code == MISPLACED]
+    mended = [d for d in site.analysis.diagnostics if d.code == catalogue.INVALID_AT_TOP.code]
     if top is None or parent is None or not any(d in site.found for d in mended) or _is_taken(site, parent):
         return
     items = site.analysis.items

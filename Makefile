@@ -1,5 +1,5 @@
 # `make help` lists the commands. They need python3 (3.11 or newer, with venv), a C compiler and cargo, and for the VS
-# Code extension node 20 and npm; everything else is brought into .venv and vscode-extension/node_modules.
+# Code extension node 20 and npm; everything else is brought into .venv and, for the extension, into folders node_modules.
 
 PYTHON ?= python3
 VENV := .venv
@@ -8,9 +8,11 @@ OUT := out
 export UV_PYTHON_DOWNLOADS := never
 UV := $(BIN)/uv
 EXTENSION := vscode-extension
+PICTURE := web/picture
 # The rest of a recipe's line is left out where there is no node, except in CI.
 NEEDS_NODE := if ! command -v npm > /dev/null; then \
-	echo "The VS Code extension is not looked at: there is no npm (node 20 or newer)."; test -z "$$CI"; exit; fi;
+	echo "The VS Code extension and its picture part are not looked at: there is no npm (node 20 or newer)."; \
+	test -z "$$CI"; exit; fi;
 CARGO_TEST := cargo test --quiet --release --workspace --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
@@ -35,8 +37,9 @@ test: tools ## Run all tests
 	$(CARGO_TEST)
 	@$(MAKE) --no-print-directory test-extension
 
-test-extension: ## Run the tests of the VS Code extension that need no VS Code
-	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && cd $(EXTENSION) && npm test --silent
+test-extension: ## Run the tests of the picture part, and those of the VS Code extension that need no VS Code
+	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && for part in $(PICTURE) $(EXTENSION); do \
+		(cd $$part && npm test --silent) || exit 1; done
 
 test-workbench: tools vsix ## Drive the extension in a real VS Code; screenshots in out/screenshots/; needs chromium and rg
 	$(EXTENSION)/test/e2e/run.sh $(OUT)
@@ -56,8 +59,9 @@ lint: tools ## Check style, types and that generated files are current
 	cd grammar && ../$(BIN)/python -m generate --check
 	@$(MAKE) --no-print-directory lint-extension
 
-lint-extension: ## Check style and types of the VS Code extension
-	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && cd $(EXTENSION) && npm run --silent check
+lint-extension: ## Check style and types of the picture part and the VS Code extension
+	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && for part in $(PICTURE) $(EXTENSION); do \
+		(cd $$part && npm run --silent check) || exit 1; done
 
 format: tools ## Lay out the Python and Rust code
 	$(BIN)/ruff check --fix --quiet
@@ -115,8 +119,8 @@ tools: needs $(UV)
 	@$(UV) sync $(QUIET) --inexact
 
 # npm leaves this file. It is not `npm ci`, which refuses where the lock file lacks a package for another platform.
-modules: $(EXTENSION)/node_modules/.package-lock.json
+modules: $(PICTURE)/node_modules/.package-lock.json $(EXTENSION)/node_modules/.package-lock.json
 
-$(EXTENSION)/node_modules/.package-lock.json: $(EXTENSION)/package-lock.json
-	cd $(EXTENSION) && npm install --ignore-scripts --no-save --no-audit --no-fund --loglevel=error
+%/node_modules/.package-lock.json: %/package-lock.json
+	cd $* && npm install --ignore-scripts --no-save --no-audit --no-fund --loglevel=error
 	@touch $@

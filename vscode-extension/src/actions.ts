@@ -1,6 +1,6 @@
 /** What a person can do when there is no server or no picture: the words for it, and the commands behind them. */
 
-import type { Obstacle } from "../preview/host";
+import type { Obstacle } from "mirage3d-picture/host";
 import { HOW_TO_INSTALL } from "./look";
 import type { ServerState } from "./server";
 

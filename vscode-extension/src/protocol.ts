@@ -7,7 +7,7 @@
 import { NotificationType, RequestType } from "vscode-languageclient/node";
 import type { Position, Range, TextDocumentIdentifier } from "vscode-languageclient/node";
 
-import type { Optics, Pixel, Rendered } from "../preview/host";
+import type { Optics, Pixel, Rendered } from "mirage3d-picture/host";
 
 /** What this client has for the server: commands for code lenses, and ears for m3d/analysed. */
 export const experimental = {

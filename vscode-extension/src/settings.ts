@@ -2,7 +2,7 @@
 
 import * as vscode from "vscode";
 
-import type { Options, Show } from "../preview/host";
+import type { Options, Show } from "mirage3d-picture/host";
 
 export function serverPath(): string {
   return vscode.workspace.getConfiguration("m3d").get<string>("server.path", "").trim();

@@ -12,11 +12,11 @@ import type {
   Rendered,
   RenderRequest,
   Tile,
-} from "../preview/host";
-import { Preview } from "../preview/preview";
+} from "mirage3d-picture/host";
+import { Preview } from "mirage3d-picture";
 import type { Answer, FromPage, Kept, ToPage, WireTile } from "./messages";
 
-import "../preview/style.css";
+import "mirage3d-picture/style.css";
 import "./theme.css";
 
 declare function acquireVsCodeApi(): {

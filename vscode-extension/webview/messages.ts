@@ -12,7 +12,7 @@ import type {
   RenderRequest,
   Scene,
   Tile,
-} from "../preview/host";
+} from "mirage3d-picture/host";
 
 /** A tile with its pixels as base64: they come so from the language server, and are only handed on. */
 export type WireTile = Omit<Tile, "pixels"> & { pixels: string };

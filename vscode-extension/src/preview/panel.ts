@@ -3,7 +3,7 @@
 import * as path from "node:path";
 import * as vscode from "vscode";
 
-import type { Hit, Mask, Optics, Rendered, Scene } from "../../preview/host";
+import type { Hit, Mask, Optics, Rendered, Scene } from "mirage3d-picture/host";
 import type { FromPage, ToPage } from "../../webview/messages";
 import { obstacle } from "../actions";
 import * as protocol from "../protocol";

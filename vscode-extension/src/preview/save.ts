@@ -3,7 +3,7 @@
 import * as path from "node:path";
 import * as vscode from "vscode";
 
-import type { Optics } from "../../preview/host";
+import type { Optics } from "mirage3d-picture/host";
 import { pictureOf } from "../arguments";
 import * as protocol from "../protocol";
 import type { Server } from "../server";

@@ -2,7 +2,7 @@
 
 import { beforeEach, expect, test } from "vitest";
 
-import { isInside, pixelAt, Viewport } from "../../preview/viewport";
+import { isInside, pixelAt, Viewport } from "../src/viewport";
 
 let viewport: Viewport;
 

@@ -2,8 +2,8 @@
 
 import { expect, test } from "vitest";
 
-import { Bitmap } from "../../preview/bitmap";
-import type { Tile } from "../../preview/host";
+import { Bitmap } from "../src/bitmap";
+import type { Tile } from "../src/host";
 
 /** A tile of one colour for each letter of its rows. */
 function tile(width: number, height: number, top: number, step: number, ...rows: string[]): Tile {

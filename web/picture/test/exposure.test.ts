@@ -2,7 +2,7 @@
 
 import { beforeEach, expect, test } from "vitest";
 
-import { Exposure } from "../../preview/exposure";
+import { Exposure } from "../src/exposure";
 import { FakeHost, plain, type Asked } from "./fake-host";
 
 const FULL = { maxWidth: 20, maxHeight: 20, samples: 4 };

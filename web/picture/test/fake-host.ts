@@ -1,6 +1,6 @@
 /** A host whose answers a test gives when it likes. */
 
-import type { Choice, Events, Hit, Host, Mask, Optics, Pixel, Rendered, RenderRequest, Tile } from "../../preview/host";
+import type { Choice, Events, Hit, Host, Mask, Optics, Pixel, Rendered, RenderRequest, Tile } from "../src/host";
 
 export interface Asked {
   request: RenderRequest;

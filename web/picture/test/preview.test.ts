@@ -2,8 +2,8 @@
 
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 
-import type { Hit, Scene } from "../../preview/host";
-import { Preview } from "../../preview/preview";
+import type { Hit, Scene } from "../src/host";
+import { Preview } from "../src/preview";
 import { FakeHost, plain, settled } from "./fake-host";
 
 const SCENE: Scene = { id: "file:///a.m3d", name: "a.m3d", version: 1, render: true, errors: false, problem: null };

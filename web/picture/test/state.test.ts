@@ -2,9 +2,9 @@
 
 import { expect, test } from "vitest";
 
-import type { Hit } from "../../preview/host";
-import { hitText, pixelText } from "../../preview/readout";
-import { badge, type State } from "../../preview/state";
+import type { Hit } from "../src/host";
+import { hitText, pixelText } from "../src/readout";
+import { badge, type State } from "../src/state";
 
 const CURRENT: State = {
   blocked: null,

@@ -2,7 +2,7 @@
 
 import { expect, test } from "vitest";
 
-import { edges } from "../../preview/stage";
+import { edges } from "../src/stage";
 
 /** The runs of what is marked in a drawing. */
 function runs(...rows: string[]): [number, number, number][] {

@@ -157,8 +157,13 @@ export class Server implements vscode.Disposable {
       });
     });
     const late = `${program} has not answered within ${TO_ANSWER / 1000} s. ${IS_IT}`;
-    // A client whose server ends meanwhile may count as started, without an answer.
-    const answered = client.start().then(() => (client.initializeResult === undefined ? ended : undefined));
+    // When a server ends meanwhile, its client may count as started, or fail with what the pipe says ("write EPIPE"),
+    // before the process is seen to have ended: then it is waited for.
+    const closed = `${program} closed the connection before it answered. ${IS_IT}`;
+    const answered = client.start().then(
+      () => (client.state === State.Running && client.initializeResult ? undefined : within(TO_END, closed, ended)),
+      (fault: unknown) => within(TO_END, fault instanceof Error ? fault.message : String(fault), ended),
+    );
     try {
       await within(TO_ANSWER, late, Promise.race([answered, ended]));
       const { name, version = "" } = client.initializeResult?.serverInfo ?? { name: "without a name" };

@@ -49,14 +49,3 @@ def m3d_view() -> int:
         return main
 
     return started("m3d-view", load)
-
-
-def mirage3d() -> int:
-    """Run `mirage3d`; returns its exit status."""
-
-    def load() -> Callable[[], int]:
-        from m3d_render.mirage3d import main
-
-        return main
-
-    return started("mirage3d", load)

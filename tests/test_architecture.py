@@ -17,6 +17,7 @@ PACKAGES = {
     "m3dc": ROOT / "compiler/m3dc",
     "m3d_render": ROOT / "renderer/m3d_render",
     "m3d_lsp": ROOT / "lsp/m3d_lsp",
+    "mirage3d": ROOT / "suite/mirage3d",
 }
 FIGURES = {"matplotlib", "PIL"}
 MAY_IMPORT = {
@@ -35,6 +36,7 @@ MAY_IMPORT = {
         "attrs",
         "cattrs",
     },
+    "mirage3d": {"m3d_render", "m3dc", "m3dc_command", "numpy"},
 }
 
 

@@ -10,8 +10,6 @@ import pytest
 
 from tools import version
 
-DISTRIBUTIONS = ("m3d-language", "m3dc", "m3d-render", "m3d-lsp")
-
 
 def test_every_file_states_it() -> None:
     stale = [path for path, text in version.texts().items() if path.read_text(encoding="utf-8") != text]
@@ -29,6 +27,6 @@ def test_no_file_of_a_part_is_forgotten() -> None:
             assert not version.JSON.search(text), name
 
 
-@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+@pytest.mark.parametrize("distribution", version.DISTRIBUTIONS)
 def test_what_is_installed_has_it(distribution: str) -> None:
     assert metadata.version(distribution) == version.version()

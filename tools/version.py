@@ -1,4 +1,5 @@
-"""Writes the version of the root pyproject.toml into every other file that has to state it: part of `make generate`."""
+"""Writes the version of the root pyproject.toml into every other file that has to state it, and the licence into every
+distribution: part of `make generate`."""
 
 from __future__ import annotations
 
@@ -8,17 +9,24 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 
+DISTRIBUTIONS = {
+    "m3d-language": "grammar",
+    "m3dc": "compiler",
+    "m3d-render": "renderer",
+    "m3d-lsp": "lsp",
+    "mirage3d": "suite",
+}
+"""The distributions, and the folder of each. Those of one release want each other's very version."""
+
 TOML = re.compile(r'^version = "(.*)"$', re.MULTILINE)
 JSON = re.compile(r'^ *"version": "(.*)",?$', re.MULTILINE)
+PIN = re.compile(rf'"(?:{"|".join(DISTRIBUTIONS)})(?:\[\w+\])?==([^"]*)"')
 
 FILES = {
-    "grammar/pyproject.toml": TOML,
+    **{f"{folder}/pyproject.toml": TOML for folder in DISTRIBUTIONS.values()},
     "grammar/package.json": JSON,
     "grammar/tree-sitter.json": JSON,
-    "compiler/pyproject.toml": TOML,
-    "renderer/pyproject.toml": TOML,
     "renderer/Cargo.toml": TOML,
-    "lsp/pyproject.toml": TOML,
     "lsp/editors/zed/Cargo.toml": TOML,
     "lsp/editors/zed/extension.toml": TOML,
     "vscode-extension/package.json": JSON,
@@ -33,24 +41,29 @@ def version() -> str:
 
 
 def texts() -> dict[Path, str]:
-    """Every file of FILES with the version it should have."""
+    """Every file that follows from the root's version and licence, with the text that it should have."""
+    licence = (ROOT / "LICENSE").read_text(encoding="utf-8")
     return {
-        ROOT / name: _with_version((ROOT / name).read_text(encoding="utf-8"), at, 2 if "-lock" in name else 1)
-        for name, at in FILES.items()
+        **{ROOT / name: _with_version(ROOT / name, at) for name, at in FILES.items()},
+        **{ROOT / folder / "LICENSE": licence for folder in DISTRIBUTIONS.values()},
     }
 
 
-def _with_version(text: str, at: re.Pattern[str], copies: int) -> str:
+def _with_version(path: Path, at: re.Pattern[str]) -> str:
+    text = path.read_text(encoding="utf-8")
+    copies = 2 if "-lock" in path.name else 1
     places = [match.span(1) for match in at.finditer(text)][:copies]
     assert len(places) == copies
-    for start, end in reversed(places):
+    if path.name == "pyproject.toml":
+        places += [match.span(1) for match in PIN.finditer(text)]
+    for start, end in sorted(places, reverse=True):
         text = text[:start] + version() + text[end:]
     return text
 
 
 def main() -> None:
     for path, text in texts().items():
-        if path.read_text(encoding="utf-8") != text:
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
             print(f"wrote {path.relative_to(ROOT)}")
 

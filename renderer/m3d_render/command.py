@@ -46,6 +46,7 @@ __all__ = [
     "check_outputs",
     "compiled",
     "ended",
+    "how_to_get",
     "load",
     "name",
     "number",
@@ -59,6 +60,11 @@ __all__ = [
 ]
 
 DISTRIBUTION = "m3d-render"
+
+
+def how_to_get(extra: str) -> str:
+    """Which command brings an extra, whichever way the project was installed; in quotes that every shell knows."""
+    return f'uv tool install "mirage3d[{extra}]" or pip install "mirage3d[{extra}]" brings it'
 
 
 def parser(program: str, description: str, *, usage: str | None = None, interrupted: str = "") -> Parser:

@@ -147,7 +147,7 @@ def test_without_matplotlib_the_way_to_it_is_said(compiled: str, tmp_path: Path)
 
     refused = run("rays", compiled, "-o", "fan.svg")
     assert refused.returncode == 2
-    assert "pip install 'm3d-render[plot]'" in refused.stderr
+    assert 'pip install "mirage3d[plot]"' in refused.stderr
     data = run("rays", compiled, "--csv=-")
     assert (data.returncode, data.stderr) == (0, "")
     assert data.stdout.startswith("kind,number,")

@@ -404,7 +404,7 @@ def test_without_pyvista_it_says_how_to_get_it(
 ):
     monkeypatch.setitem(sys.modules, "pyvista", None)
     assert main([str(scene), "--screenshot", str(scene.parent / "a.png")]) == 2
-    assert "pip install 'm3d-render[view]'" in capsys.readouterr().err
+    assert 'pip install "mirage3d[view]"' in capsys.readouterr().err
 
 
 def test_meshes_hold_every_primitive_but_planes(examples: Path):

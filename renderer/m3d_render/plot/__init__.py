@@ -10,7 +10,7 @@
     plot.draw_fan(fan, axes)
 
 What each figure shows is worked out by one function and drawn by another. Only drawing needs matplotlib, which comes
-with `m3d-render[plot]`.
+with `mirage3d[plot]`.
 """
 
 from m3d_render.geometry import ViewPlane

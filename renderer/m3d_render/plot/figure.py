@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from m3d_render.command import USAGE_ERROR, CommandError, reason
+from m3d_render.command import USAGE_ERROR, CommandError, how_to_get, reason
 from m3dc.files.artefact import replacing
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def check(output: Path) -> None:
     except ImportError:
         raise CommandError(
             USAGE_ERROR,
-            "figures are drawn by matplotlib, which is not installed: pip install 'm3d-render[plot]'; "
+            f"figures are drawn by matplotlib, which is not installed: {how_to_get('plot')}; "
             "--csv FILE without -o writes the data without it",
         ) from None
 

@@ -7,7 +7,7 @@ import os
 import sys
 from typing import Any
 
-from m3d_render.command import USAGE_ERROR, CommandError
+from m3d_render.command import USAGE_ERROR, CommandError, how_to_get
 
 _CHOICE = "VTK_DEFAULT_OPENGL_WINDOW"
 _WITHOUT_DISPLAY = (
@@ -25,7 +25,7 @@ def load_pyvista(*, window: bool) -> Any:
         import pyvista  # pyright: ignore[reportMissingImports, reportMissingTypeStubs, reportUnusedImport]
     except ImportError as error:
         if error.name == "pyvista":
-            message = "m3d-view draws with pyvista, which is not installed: pip install 'm3d-render[view]'"
+            message = f"m3d-view draws with pyvista, which is not installed: {how_to_get('view')} (700 MB)"
         else:
             message = f"pyvista, which m3d-view draws with, can not be loaded: {error}"
         raise CommandError(USAGE_ERROR, message) from None

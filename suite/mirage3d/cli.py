@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from m3dc_command import Terminated, now, say, version_line
+from m3dc_command import Terminated, now, say
 from numpy.typing import NDArray
 
 import m3dc
@@ -27,6 +27,7 @@ from m3dc.diagnostics.levels import Levels
 from m3dc.files.artefact import replacing, write_file
 from m3dc.files.interrupt import Interrupt
 from m3dc.ir.dump import dump
+from mirage3d.versions import versions
 
 LISTING = """\
 usage: mirage3d datafile [-command ...]
@@ -50,7 +51,7 @@ Render a scene to three files, one a colour: a byte a pixel, row by row from the
   -N            Check the orientation of polygon normals (No)
   -W            Wireframe display (No)
   --help        Show this list
-  --version     Show the program's version
+  --version     Show the versions of everything that is installed
 
 There is no space between a command and its value. Commands take precedence over the data file.
 m3dc and m3d-render do all of this and more.
@@ -193,7 +194,7 @@ def _main(given: Sequence[str]) -> int:
         print(LISTING, end="")
         return FINE
     if "--version" in given:
-        print(version_line("mirage3d", command.DISTRIBUTION))
+        print("\n".join(f"{name} {version}" for name, version in versions().items()))
         return FINE
     try:
         return _run(parse(given))

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 import m3dc
 from m3d_render import RenderOptions, render, wireframe
-from m3d_render.mirage3d import main
 from m3d_render.picture import to_bytes
+from mirage3d.cli import main
 
 SCENE = """SCENE { LOGSCALE 5 SKY { } VIEW { FROM <8,0,1> TO <0,0,1> WIDTH 20 HEIGHT 12 } }
 SOLID { SPHERE { RADIUS 2 } }

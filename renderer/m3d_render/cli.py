@@ -15,7 +15,7 @@ from m3d_render import command, destination, wireframe_cli
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.destination import Destination
 from m3d_render.metadata import metadata
-from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES
+from m3d_render.options import BEYOND, WORK
 from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
@@ -58,72 +58,19 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="render nothing: report facets whose normals point to the wrong side",
     )
-    _add_view(parser.add_argument_group("view, instead of the scene's"))
-    _add_light(parser.add_argument_group("light and air"))
-    wireframe_cli.add_options(parser)
-    more = parser.add_argument_group("beyond the thesis")
-    more.add_argument(
-        "--samples",
-        type=command.whole(1, MOST_SAMPLES),
-        default=1,
-        metavar="N",
-        help="rays a pixel, spread by a smooth filter: no jagged edges (1)",
-    )
-    more.add_argument(
-        "--refract-reflections",
-        action="store_true",
-        default=None,
-        help="the air bends mirror rays too, even if the scene does not say so",
-    )
-    more.add_argument(
+    groups = command.add_render_options(parser)
+    groups[BEYOND].add_argument(
         "--aov",
         type=_layers,
         default=(),
         metavar="NAME,...",
         help=f"extra channels in an .exr: {', '.join(LAYERS)}; or all",
     )
-    work = parser.add_argument_group("work")
-    threads = command.whole(1, 4096)
-    work.add_argument("--threads", type=threads, metavar="N", help="threads; all processors if not given")
-    work.add_argument(
+    groups[WORK].add_argument(
         "--stats", action="store_true", help="print a JSON object: seconds, rays of each kind, arcs, peak memory"
     )
+    wireframe_cli.add_options(parser)
     return parser
-
-
-def _add_view(group: argparse._ArgumentGroup) -> None:  # pyright: ignore[reportPrivateUsage]
-    side = command.whole(1, LARGEST_SIDE)
-    group.add_argument("--width", type=side, metavar="N", help="pixels in a row")
-    group.add_argument("--height", type=side, metavar="N", help="pixels in a column")
-    part = group.add_mutually_exclusive_group()
-    part.add_argument(
-        "--region",
-        type=command.numbers(4, ",", "T,L,B,R"),
-        metavar="T,L,B,R",
-        help="only this part: top row, left column, bottom row, right column, from 0",
-    )
-    part.add_argument(
-        "--rows", type=command.numbers(2, ":", "A:B"), metavar="A:B", help="only rows A to B, both included, from 0"
-    )
-
-
-def _add_light(group: argparse._ArgumentGroup) -> None:  # pyright: ignore[reportPrivateUsage]
-    group.add_argument("--straight", action="store_true", help="straight rays, whatever MIRAGE says")
-    group.add_argument(
-        "--shadows", action="store_true", default=None, help="cast shadows, even if the scene does not say so"
-    )
-    group.add_argument(
-        "--depth",
-        type=command.whole(1, 1_000_000_000),
-        metavar="N",
-        help="level of the last mirror ray; the eye ray is 1",
-    )
-    group.add_argument(
-        "--normalize", action="store_true", help="divide by the largest value, before LOGSCALE, instead of clipping"
-    )
-    group.add_argument(
-        "--log-scale", type=command.number, metavar="S", help="LOGSCALE, instead of the scene's; above 1"
-    )
 
 
 def _layers(text: str) -> tuple[str, ...]:
@@ -180,21 +127,8 @@ def _render(ir: SceneIR, options: argparse.Namespace) -> tuple[Rendering, int]:
         scene = prepare(ir)
         with interrupt:
             rendering = scene.render(
-                width=options.width,
-                height=options.height,
-                region=options.region,
-                rows=options.rows,
-                straight=options.straight,
-                shadows=options.shadows,
-                depth=options.depth,
-                normalize=options.normalize,
-                log_scale=options.log_scale,
-                samples=options.samples,
-                refract_reflections=options.refract_reflections,
                 aov=options.aov,
-                threads=options.threads,
-                progress=progress,
-                cancel=interrupt.asked,
+                **(command.asked(options) | {"progress": progress, "cancel": interrupt.asked}),
             )
         return rendering, 0
     except Cancelled as cancelled:

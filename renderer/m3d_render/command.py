@@ -11,7 +11,7 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, cast
 
 from m3dc_command import (
     EXIT_STATUS,
@@ -29,6 +29,7 @@ from m3dc_command import (
 )
 from m3dc_command import parser as _parser
 
+from m3d_render.options import OPTIONS, Option, Real, RenderOptions, Switch, Whole
 from m3dc import Result
 from m3dc import compile as compile_scene
 from m3dc.diagnostics import report
@@ -41,7 +42,9 @@ __all__ = [
     "SCENE_ERROR",
     "USAGE_ERROR",
     "CommandError",
+    "add_render_options",
     "add_scene",
+    "asked",
     "check_folder",
     "check_outputs",
     "compiled",
@@ -76,6 +79,35 @@ def parser(program: str, description: str, *, usage: str | None = None, interrup
 def add_scene(parser: argparse.ArgumentParser) -> None:
     """The argument that `load` takes."""
     parser.add_argument("scene", metavar="SCENE", help="a scene, .m3d, or a compiled one, .m3ir; - reads a .m3d")
+
+
+def add_render_options(parser: argparse.ArgumentParser) -> dict[str, argparse._ArgumentGroup]:  # pyright: ignore[reportPrivateUsage]
+    """Adds the options that `asked` reads; returns their groups by heading."""
+    titles = list(dict.fromkeys(option.group for option in OPTIONS.values()))
+    groups = {title: parser.add_argument_group(title) for title in titles}
+    parts = {title: group.add_mutually_exclusive_group() for title, group in groups.items()}
+    for name, option in OPTIONS.items():
+        _add(parts[option.group] if option.part else groups[option.group], name, option)
+    return groups
+
+
+def _add(group: argparse._ActionsContainer, name: str, option: Option) -> None:  # pyright: ignore[reportPrivateUsage]
+    flag, kind = f"--{name.replace('_', '-')}", option.kind
+    if isinstance(kind, Switch):
+        group.add_argument(flag, action="store_true", default=option.default, help=option.help)
+        return
+    if isinstance(kind, Whole):
+        parse = whole(kind.least, kind.most)
+    elif isinstance(kind, Real):
+        parse = number
+    else:
+        parse = numbers(kind.many, kind.separator, kind.metavar)
+    group.add_argument(flag, type=parse, default=option.default, metavar=kind.metavar, help=option.help)
+
+
+def asked(options: argparse.Namespace) -> RenderOptions:
+    """What a command line with `add_render_options` asks of a picture."""
+    return cast("RenderOptions", {name: getattr(options, name) for name in OPTIONS})
 
 
 def load(scene: str) -> SceneIR:

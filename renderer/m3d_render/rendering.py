@@ -6,13 +6,13 @@ import os
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TypeAlias, Unpack
+from typing import Any, TypeAlias, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render import _kernel
-from m3d_render.options import LARGEST_SIDE, MOST_SAMPLES, Picture, Region, RenderOptions, Tile
+from m3d_render.options import KERNEL, OPTIONS, Option, Picture, Region, RenderOptions, Switch, Tile, Value, Whole
 from m3d_render.picture import png
 from m3dc.ir import SceneIR, m3ir
 
@@ -78,7 +78,7 @@ class Rendering:
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What the kernel is asked for, every choice made."""
+    """What the kernel is asked for, every choice made. `options` has a value for each option of the kernel."""
 
     width: int
     height: int
@@ -86,13 +86,7 @@ class Request:
     top: int
     columns: int
     rows: int
-    straight: bool
-    shadows: bool
-    depth: int
-    log_scale: float
-    normalize: bool
-    samples: int
-    refract_reflections: bool
+    options: dict[str, Value]
     layers: list[str]
     threads: int
 
@@ -114,7 +108,7 @@ class Prepared:
         length of the ray and of how many arcs it is made. Each belongs to the ray through the pixel's middle.
         """
         request = self._request(tuple(aov), options)
-        bent = self.kernel.observer is not None and not request.straight
+        bent = self.kernel.observer is not None and not request.options["straight"]
         if bent:
             self._check_observer()
         tiles = options.get("tiles")
@@ -148,14 +142,11 @@ class Prepared:
         unknown = [*(options.keys() - RenderOptions.__annotations__), *(set(aov) - LAYERS.keys())]
         if unknown:
             raise TypeError(f"render() has no option or extra output {', '.join(sorted(unknown))}")
-        scene = self.ir.scene
-        view = scene.view
-        width, height, threads = options.get("width"), options.get("height"), options.get("threads")
-        columns = whole("width", view.width if width is None else width, 1, LARGEST_SIDE)
-        rows = whole("height", view.height if height is None else height, 1, LARGEST_SIDE)
+        view = self.ir.scene.view
+        threads = options.get("threads")
+        columns = _whole("width", options.get("width"), view.width)
+        rows = _whole("height", options.get("height"), view.height)
         part = _part(self.ir, options, columns, rows)
-        depth, shadows, log_scale = options.get("depth"), options.get("shadows"), options.get("log_scale")
-        refract_reflections = options.get("refract_reflections")
         return Request(
             width=columns,
             height=rows,
@@ -163,15 +154,9 @@ class Prepared:
             top=part.top,
             columns=part.right - part.left + 1,
             rows=part.bottom - part.top + 1,
-            straight=options.get("straight", False),
-            shadows=scene.shadows if shadows is None else bool(shadows),
-            depth=whole("depth", scene.depth if depth is None else depth, 1, 1_000_000_000),
-            log_scale=float(scene.log_scale if log_scale is None else log_scale),
-            normalize=options.get("normalize", False),
-            samples=whole("samples", options.get("samples", 1), 1, MOST_SAMPLES),
-            refract_reflections=scene.refract_reflections if refract_reflections is None else bool(refract_reflections),
+            options={name: _choice(self.ir, name, option, options.get(name)) for name, option in KERNEL.items()},
             layers=list(dict.fromkeys(aov)),
-            threads=usable_threads() if threads is None else whole("threads", threads, 1, 4096),
+            threads=_whole("threads", threads, usable_threads()),
         )
 
     def _check_observer(self) -> None:
@@ -184,6 +169,23 @@ class Prepared:
                 f"the observer (VIEW FROM) is at height {eye:g}, outside of the temperature profile, "
                 f"{lowest:g} to {highest:g}: extend the profile, move the observer, or render with straight rays"
             )
+
+
+def _choice(ir: SceneIR, name: str, option: Option, given: object) -> Value:
+    """The value of an option of the kernel, as it was given or the scene says. Raises SceneError."""
+    value: Any = given
+    if value is None:
+        value = getattr(ir.scene, name) if option.default is None else option.default
+    if isinstance(option.kind, Whole):
+        return whole(name, value, option.kind.least, option.kind.most)
+    return bool(value) if isinstance(option.kind, Switch) else float(value)
+
+
+def _whole(name: str, given: int | None, default: int) -> int:
+    """The value of an option that is a whole number; the default where none is given. Raises SceneError."""
+    kind = OPTIONS[name].kind
+    assert isinstance(kind, Whole)
+    return whole(name, default if given is None else given, kind.least, kind.most)
 
 
 def _part(ir: SceneIR, options: RenderOptions, columns: int, rows: int) -> Region:

@@ -6,6 +6,7 @@ import argparse
 
 from m3d_render import _kernel, command, destination
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.options import OPTIONS
 from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
 from m3d_render.rendering import SceneError
 from m3d_render.wireframe.drawing import HIDDEN, project
@@ -15,10 +16,7 @@ from m3d_render.wireframe.svg import svg
 from m3dc.diagnostics import report
 from m3dc.files.artefact import write_file
 
-WITHOUT_EFFECT = (
-    *("region", "rows", "straight", "shadows", "depth", "normalize", "log_scale", "samples"),
-    *("refract_reflections", "aov", "threads", "stats"),
-)
+WITHOUT_EFFECT = (*(name for name in OPTIONS if name not in ("width", "height")), "aov", "stats")
 """Options of a rendered picture that say nothing of a wireframe."""
 
 

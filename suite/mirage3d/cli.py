@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 from m3dc_command import Terminated, now, say
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 import m3dc
 from m3d_render import command, wireframe
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR
+from m3d_render.options import OPTIONS, RenderOptions
 from m3d_render.picture import to_bytes
 from m3d_render.rendering import Cancelled, SceneError, prepare
 from m3dc.diagnostics import catalogue, report
@@ -90,13 +92,9 @@ class Options:
     dump: str | None = None  # a file's name, or "" for standard output
     echo: bool = False
     buffer: str | None = None
-    width: int | None = None
-    height: int | None = None
     start: int | None = None
     end: int | None = None
-    depth: int | None = None
-    log_scale: float | None = None
-    shadows: bool = False
+    render: RenderOptions = field(default_factory=RenderOptions)
     check_normals: bool = False
     wireframe: bool = False
     unknown: list[str] = field(default_factory=list[str])
@@ -115,7 +113,7 @@ def _file(name: str, command: str) -> Setter:
 
 
 def _number(name: str, command: str, what: str, low: float, high: float, kind: type[int] | type[float]) -> Setter:
-    """A number with low < number < high."""
+    """A number with low < number < high, kept under its name."""
 
     def set_number(options: Options, value: str) -> None:
         if not value:
@@ -126,7 +124,7 @@ def _number(name: str, command: str, what: str, low: float, high: float, kind: t
             number = None
         if number is None or not low < number < high:
             raise UnrecoverableError(f"Invalid {what} specified for {command} command")
-        setattr(options, name, number)
+        _set(options, name, number)
 
     return set_number
 
@@ -135,9 +133,17 @@ def _flag(name: str) -> Setter:
     def set_flag(options: Options, value: str) -> None:
         if value:
             options.unknown.append(value)
-        setattr(options, name, True)
+        _set(options, name, True)
 
     return set_flag
+
+
+def _set(options: Options, name: str, value: Any) -> None:
+    """Keeps a value under its name, with the render options if it is one of those."""
+    if name in OPTIONS:
+        options.render |= cast("RenderOptions", {name: value})
+    else:
+        setattr(options, name, value)
 
 
 def _set_dump(options: Options, value: str) -> None:
@@ -257,39 +263,33 @@ def _dump(result: m3dc.Result, options: Options) -> None:
 
 def _picture(ir: m3dc.SceneIR, options: Options) -> NDArray[np.float32]:
     view = ir.scene.view
-    width, height = options.width or view.width, options.height or view.height
+    asked = options.render
+    width, height = asked.get("width") or view.width, asked.get("height") or view.height
     if options.wireframe:
         return wireframe.draw(ir, width, height)
     first = 0 if options.start is None else options.start
     last = height - 1 if options.end is None else min(options.end, height - 1)
     if first > last:
         raise UnrecoverableError(f"Invalid starting row specified for -s command: {first} is not above row {last}")
-    whole = all(value is None for value in (options.width, options.height, options.start, options.end))
+    if options.start is not None or options.end is not None:
+        asked |= {"rows": (first, last)}
+    if asked.keys() & {"width", "height", "rows"}:
+        asked |= {"width": width, "height": height}
     if options.buffer is not None:
         _check_buffer(Path(options.buffer))
+        asked |= {"normalize": True}
     try:
-        return _rendered(ir, options, whole, width, height, (first, last))
+        return _rendered(ir, asked)
     except SceneError as error:
         raise UnrecoverableError(str(error)) from None
 
 
-def _rendered(
-    ir: m3dc.SceneIR, options: Options, whole: bool, width: int, height: int, rows: tuple[int, int]
-) -> NDArray[np.float32]:
+def _rendered(ir: m3dc.SceneIR, asked: RenderOptions) -> NDArray[np.float32]:
     scene = prepare(ir)
     interrupt = Interrupt()
     try:
         with interrupt:
-            rendering = scene.render(
-                width=None if whole else width,
-                height=None if whole else height,
-                rows=None if options.start is None and options.end is None else rows,
-                shadows=True if options.shadows else None,
-                depth=options.depth,
-                log_scale=options.log_scale,
-                normalize=options.buffer is not None,
-                cancel=interrupt.asked,
-            )
+            rendering = scene.render(**(asked | {"cancel": interrupt.asked}))
     except Cancelled:
         raise Terminated(interrupt.number) from None
     return rendering.picture

@@ -10,6 +10,7 @@ mod archive;
 mod generated;
 mod header;
 mod lights;
+mod options;
 mod refusal;
 mod shapes;
 mod solids;
@@ -24,6 +25,7 @@ use m3d_kernel::shade::sky::Sky;
 
 pub use air::air;
 pub use archive::Archive;
+pub use options::options;
 pub use refusal::{Refusal, Result};
 pub use tables::{Column, Numbers, Tables};
 

@@ -4,7 +4,6 @@
 use glam::DVec3;
 
 #[derive(Clone, Copy, PartialEq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Film {
     /// Scale of the logarithm; 1 or less has no effect.
     pub log_scale: f64,

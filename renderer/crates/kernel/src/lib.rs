@@ -9,6 +9,7 @@ pub mod film;
 pub mod layer;
 pub mod noise;
 pub mod optics;
+pub mod options;
 pub mod picture;
 pub mod random;
 pub mod ray;

@@ -8,16 +8,17 @@ use crate::supersampling::Filter;
 
 /// The pixels of the region, three numbers each, row after row from the top left.
 pub fn picture(scene: &Scene, settings: &Settings) -> Vec<f32> {
-    let filter = (settings.samples > 1).then(Filter::new);
+    let filter = (settings.options.samples > 1).then(Filter::new);
+    let film = settings.film();
     let never = AtomicBool::new(false);
     let mut tracer = Tracer::new(scene, settings, filter.as_ref(), &never);
     let mut layers = vec![0.0; settings.channels()];
     let mut pixels = Vec::with_capacity(3 * settings.columns * settings.rows);
     for row in settings.top..settings.top + settings.rows {
         for column in settings.left..settings.left + settings.columns {
-            pixels.extend(settings.film.expose(tracer.pixel(column, row, &mut layers)));
+            pixels.extend(film.expose(tracer.pixel(column, row, &mut layers)));
         }
     }
-    settings.film.develop(&mut pixels);
+    film.develop(&mut pixels);
     pixels
 }

@@ -12,6 +12,7 @@ use crate::layer::Layer;
 use crate::optics::crossing::Crossing;
 use crate::optics::path::Path;
 use crate::optics::tip::Tip;
+use crate::options::Options;
 use crate::random::Place;
 use crate::ray::{Hit, Ray, ShapeId};
 use crate::scene::{Background, Owner, Scene, Solid};
@@ -44,24 +45,19 @@ pub struct Settings {
     pub top: usize,
     pub columns: usize,
     pub rows: usize,
-    /// Whether rays go straight, whatever the air.
-    pub straight: bool,
-    pub shadows: bool,
-    /// Level of the last mirror ray; the eye ray is level 1.
-    pub depth: usize,
-    /// Eye rays a pixel; 1 goes through its middle.
-    pub samples: usize,
-    /// Whether the air bends mirror rays too.
-    pub refract_reflections: bool,
+    pub options: Options,
     /// Extra outputs, in this order.
     pub layers: Vec<Layer>,
-    pub film: Film,
 }
 
 impl Settings {
     /// Numbers a pixel that the extra outputs take.
     pub fn channels(&self) -> usize {
         self.layers.iter().map(|layer| layer.channels()).sum()
+    }
+
+    pub fn film(&self) -> Film {
+        Film { log_scale: self.options.log_scale, normalize: self.options.normalize }
     }
 }
 
@@ -176,7 +172,7 @@ impl<'a> Tracer<'a> {
             path: scene
                 .air
                 .as_ref()
-                .filter(|_| !settings.straight)
+                .filter(|_| !settings.options.straight)
                 .map(|air| Path::stopped_by(air, cancelled)),
             stack: Vec::with_capacity(256),
             measures_length: scene.haze.density > 0.0 || settings.layers.contains(&Layer::Path),
@@ -197,14 +193,14 @@ impl<'a> Tracer<'a> {
             self.describe(&sight, layers);
         }
         let mut sum = DVec3::ZERO;
-        for (i, [dx, dy]) in filter.samples(x, y, self.settings.samples).enumerate() {
+        for (i, [dx, dy]) in filter.samples(x, y, self.settings.options.samples).enumerate() {
             if self.is_cancelled() {
                 break;
             }
             let sight = self.look(x as f64 + dx, y as f64 + dy);
             sum += self.radiance(sight.arrival, Errand::of_eye(Place::of_sample(x, y, i)));
         }
-        sum / self.settings.samples as f64
+        sum / self.settings.options.samples as f64
     }
 
     fn describe(&self, sight: &Sight, mut out: &mut [f32]) {
@@ -368,7 +364,7 @@ impl<'a> Tracer<'a> {
             if share.is_nan() || share <= 0.0 {
                 return sum;
             }
-            if errand.level >= self.settings.depth {
+            if errand.level >= self.settings.options.depth {
                 return sum + share * scene.ambient.constant;
             }
             if self.is_cancelled() {
@@ -386,7 +382,7 @@ impl<'a> Tracer<'a> {
             }
             self.tally.reflected += 1;
             let ray = Ray { direction: mirrored.normalize_or_zero(), ..start };
-            arrival = if self.settings.refract_reflections {
+            arrival = if self.settings.options.refract_reflections {
                 self.follow(ray, self.bent_part(&ray)).arrival
             } else {
                 self.straight(ray, Way::default())
@@ -453,7 +449,7 @@ impl<'a> Tracer<'a> {
             if self.is_cancelled() {
                 break;
             }
-            if self.settings.shadows && light.shadows {
+            if self.settings.options.shadows && light.shadows {
                 self.tally.shadow += 1;
                 let ray = Ray { direction: incident.toward, to: incident.distance, ..*start };
                 if blocked(&scene.shapes, &scene.solid_tree, &ray, &mut self.stack) {

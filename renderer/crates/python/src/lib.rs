@@ -2,6 +2,7 @@
 //! here only what must be native.
 
 mod fault;
+mod options;
 mod tables;
 
 use std::sync::atomic::Ordering;
@@ -18,11 +19,11 @@ use rayon::prelude::*;
 
 use m3d_ir::{Ir, Refusal};
 use m3d_kernel::camera::Size;
-use m3d_kernel::film::Film;
 use m3d_kernel::layer::Layer;
 use m3d_kernel::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
 use m3d_kernel::optics::path::Path;
 use m3d_kernel::optics::tip::End;
+use m3d_kernel::options::Options;
 use m3d_kernel::ray::Ray;
 use m3d_kernel::render::{Settings, Tally};
 use m3d_kernel::scene;
@@ -52,13 +53,8 @@ struct Request {
     top: usize,
     columns: usize,
     rows: usize,
-    straight: bool,
-    shadows: bool,
-    depth: usize,
-    log_scale: f64,
-    normalize: bool,
-    samples: usize,
-    refract_reflections: bool,
+    #[pyo3(from_py_with = options::options)]
+    options: Options,
     layers: Vec<String>,
     threads: usize,
 }
@@ -81,13 +77,8 @@ impl Request {
             top,
             columns,
             rows,
-            straight: self.straight,
-            shadows: self.shadows,
-            depth: self.depth,
-            samples: self.samples.max(1),
-            refract_reflections: self.refract_reflections,
+            options: self.options.clone(),
             layers: self.layers.iter().map(layer).collect::<PyResult<_>>()?,
-            film: Film { log_scale: self.log_scale, normalize: self.normalize },
         })
     }
 }
@@ -198,7 +189,7 @@ impl Scene {
             audience.is_told_the_end(py, &receiver)?;
         }
         let finished_rows = watch.finished_rows();
-        settings.film.develop(&mut pixels[..finished_rows * columns * 3]);
+        settings.film().develop(&mut pixels[..finished_rows * columns * 3]);
         let array = |values: Vec<f32>, depth: usize| {
             Ok::<_, PyErr>(PyArray1::from_vec(py, values).reshape([rows, columns, depth])?.unbind())
         };
@@ -269,7 +260,7 @@ impl<'py> Audience<'_, 'py> {
     fn show(&mut self, py: Python<'py>, mut tile: Tile) -> PyResult<()> {
         let Some(tiles) = &self.tiles else { return Ok(()) };
         self.largest = tile.pixels.iter().copied().fold(self.largest, f32::max);
-        self.settings.film.develop_by(self.largest, &mut tile.pixels);
+        self.settings.film().develop_by(self.largest, &mut tile.pixels);
         let rows = tile.pixels.len() / (3 * tile.columns);
         let pixels = PyArray1::from_vec(py, tile.pixels).reshape([rows, tile.columns, 3])?;
         tiles.call1((tile.top, tile.step, pixels))?;

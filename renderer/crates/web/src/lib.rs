@@ -13,7 +13,7 @@ use std::cell::RefCell;
 
 use m3d_ir::{Archive, Ir};
 use m3d_kernel::camera::Size;
-use m3d_kernel::film::Film;
+use m3d_kernel::options::Options;
 use m3d_kernel::picture::picture;
 use m3d_kernel::render::Settings;
 use m3d_kernel::scene::Scene;
@@ -61,20 +61,14 @@ pub extern "C" fn open() -> u32 {
 fn read(file: &[u8]) -> Result<(Scene, Settings), String> {
     let archive = Archive::read(file).map_err(|error| error.to_string())?;
     let ir = Ir::new(&archive.header, &archive).map_err(|error| error.to_string())?;
-    let said = &ir.scene;
     let settings = Settings {
         size: Size { width: 0, height: 0 },
         left: 0,
         top: 0,
         columns: 0,
         rows: 0,
-        straight: false,
-        shadows: said.shadows,
-        depth: usize::try_from(said.depth).unwrap_or(1),
-        samples: 1,
-        refract_reflections: said.refract_reflections,
+        options: m3d_ir::options(&ir),
         layers: Vec::new(),
-        film: Film { log_scale: said.log_scale, normalize: false },
     };
     Ok((m3d_ir::scene(&ir, 1).map_err(|error| error.to_string())?, settings))
 }
@@ -86,7 +80,8 @@ pub extern "C" fn render(width: usize, height: usize, straight: bool) -> *const 
     with(|open| {
         let Some((scene, settings)) = &open.scene else { return std::ptr::null() };
         let size = Size { width, height };
-        let settings = Settings { size, columns: width, rows: height, straight, ..settings.clone() };
+        let options = Options { straight, ..settings.options.clone() };
+        let settings = Settings { size, columns: width, rows: height, options, ..settings.clone() };
         open.pixels = picture(scene, &settings);
         open.pixels.as_ptr()
     })

@@ -40,7 +40,7 @@ pub(crate) fn bands<'a>(canvas: &'a mut Canvas, settings: &Settings, height: usi
 impl Band<'_> {
     /// Renders the band's part of a pass; false if it was cancelled.
     pub fn render(&mut self, pass: Pass, tracer: &mut Tracer, settings: &Settings, watch: &Watch) -> bool {
-        let channels = settings.channels();
+        let (channels, film) = (settings.channels(), settings.film());
         for (i, canvas) in self.rows.iter_mut().enumerate() {
             let row = self.first_row + i;
             if !row.is_multiple_of(pass.step) {
@@ -56,7 +56,7 @@ impl Band<'_> {
                 if watch.cancelled.load(Ordering::Relaxed) {
                     return false;
                 }
-                pixel.copy_from_slice(&settings.film.expose(color));
+                pixel.copy_from_slice(&film.expose(color));
                 done += 1;
             }
             watch.pixels_done.fetch_add(done, Ordering::Relaxed);

@@ -26,7 +26,7 @@ pub fn render(
     mut canvas: Canvas,
     tiles: Option<Sender<Tile>>,
 ) -> Tally {
-    let filter = (settings.samples > 1).then(Filter::new);
+    let filter = (settings.options.samples > 1).then(Filter::new);
     let coarsest = if tiles.is_some() { COARSEST } else { 1 };
     let mut total = Tally::default();
     let mut step = coarsest;

@@ -40,7 +40,7 @@ def marks(text: str) -> list[Mark]:
 
 def mark(diagnostic: Diagnostic, source: Source) -> Mark:
     """The mark that a diagnostic calls for."""
-    start, end = (source.position(offset) for offset in diagnostic.span)
+    start, end = (source.position(offset) for offset in diagnostic.span.bytes)
     last = end.column if end.line == start.line else len(source.line(start.line)) + 1
     return Mark(start.line, start.column, max(last - start.column, 1), diagnostic.code, diagnostic.headline)
 

@@ -49,7 +49,7 @@ def test_without_it_the_picture_is_the_same(text: str) -> None:
     found = [d for d in m3dc.compile(data).diagnostics if d.code in WITHOUT_EFFECT]
     assert found
     for diagnostic in found:
-        start, end = diagnostic.span
+        start, end = diagnostic.span.bytes
         assert np.array_equal(look(data[:start] + data[end:]), picture), diagnostic.message
 
 

@@ -11,7 +11,7 @@ from functools import cached_property
 from tree_sitter import Tree
 
 from .compiler import Result, has_errors, in_order, noted
-from .diagnostics import Diagnostic, Findings, placed
+from .diagnostics import Diagnostic, Findings
 from .files.collection import paused
 from .ir import SceneIR
 from .ir.lower import lower
@@ -32,8 +32,8 @@ class Analysis:
 
     Its `tree` is the concrete syntax tree of the text; `items` are the top-level items that could be read, and
     `program` those of them, in the same order, that are right as far as they go; `world.made` has an entry for each of
-    `program`. Spans in `items` and `program` are relative to their item; `places` makes those of records in `world`
-    bytes of the text.
+    `program`. Places in `items` and `program` count from their item; `places` tells where those that records in
+    `world` keep are in the text.
     """
 
     source: Source
@@ -84,6 +84,5 @@ class Analyser:
         if not has_errors(findings.found):
             self._lints.begin()
             lint(world, checked, findings, self._lints)
-        places = self._parsed.places
-        diagnostics = in_order((placed(found, places) for found in findings.found), source)
-        return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, places, diagnostics)
+        diagnostics = in_order(findings.diagnostics(syntax.places), source)
+        return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, syntax.places, diagnostics)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
-from .diagnostics import Diagnostic, Findings, catalogue
+from .diagnostics import Diagnostic, Finding, Findings, catalogue
 from .diagnostics.directives import without_allowed, wrong_directives
 from .files.collection import paused
 from .ir import SceneIR
@@ -15,7 +15,6 @@ from .meaning.evaluate import Evaluator
 from .meaning.lint import lint
 from .meaning.program import Item
 from .syntax.parse import parse
-from .text.places import Places
 from .text.source import Source
 
 T = TypeVar("T")
@@ -48,10 +47,10 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     syntax = parse(source, findings)
     program: list[Item] = []
     world = Evaluator(findings).run(noted(check(source, syntax.items, syntax, findings), program), syntax.unfinished)
-    ir = lower(world, source.name, Places())
+    ir = lower(world, source.name, syntax.places)
     if not has_errors(findings.found):
         lint(world, program, findings)
-    return Result(ir, in_order(findings.found, source), source)
+    return Result(ir, in_order(findings.diagnostics(syntax.places), source), source)
 
 
 def noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:
@@ -61,7 +60,7 @@ def noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:
         yield thing
 
 
-def has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
+def has_errors(diagnostics: Sequence[Finding[Any]]) -> bool:
     """Whether a diagnostic is an error."""
     return any(diagnostic.severity == "error" for diagnostic in diagnostics)
 

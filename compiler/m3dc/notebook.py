@@ -23,7 +23,7 @@ def result_html(diagnostics: Sequence[Diagnostic], source: Source, ir: SceneIR) 
     shown = Levels().apply(diagnostics)
     parts: list[str] = []
     for diagnostic in shown[:MOST_ROWS]:
-        line, column = source.position(diagnostic.span[0])
+        line, column = source.position(diagnostic.span.start)
         kind = f'<b style="color: {_COLORS[diagnostic.severity]}">{diagnostic.severity}[{diagnostic.code}]</b>'
         text = escape(source.line(line))
         parts.append(f"<div>{line}:{column}: {kind}: {escape(diagnostic.message)}<pre>{text}</pre></div>")

@@ -87,8 +87,7 @@ def _of_kind(expected: tuple[Argument, ...], given: tuple[ast.Argument, ...]) ->
 
 
 def _colour(use: _Use, known: Names) -> Colour | None:
-    start, end = use.argument.span
-    span = start + use.start, end + use.start
+    span = use.argument.span.within(use.start)
     if isinstance(use.argument, ast.Vector):
         value = known.vector(use.argument, span[0])
         return None if value is None else Colour(span, value, None)
@@ -108,7 +107,7 @@ def _in_rows(table: program.Table, item: int, data: bytes) -> Iterator[Colour]:
     starts = row_starts(table, item)
     if table.bulk is None or not 0 < len(starts) <= _MOST_ROWS:
         return
-    first, end = int(starts[0]), item + table.span[1]
+    first, end = int(starts[0]), table.span.within(item)[1]
     text = blank_comments(data[first:end].decode("latin-1"))
     for match in _VECTOR.finditer(text):
         try:

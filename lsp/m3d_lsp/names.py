@@ -62,11 +62,9 @@ class Names:
         self._analysis = analysis
         self.occurrences: list[Occurrence] = []
         for top in analysis.items:
-            for occurrence in _names_of(top.item):
-                placed = occurrence._replace(span=top.place(occurrence.span))
-                if occurrence.type_span is not None:
-                    placed = placed._replace(type_span=top.place(occurrence.type_span))
-                self.occurrences.append(placed)
+            for name, role, declared in _names_of(top.item):
+                type_, type_span = ("", None) if declared is None else (declared.text, top.place(declared.span))
+                self.occurrences.append(Occurrence(name.text, top.place(name.span), role, type_, type_span))
         if analysis.tree.root_node.has_error or not analysis.items:
             known = {occurrence.span for occurrence in self.occurrences}
             known |= {o.type_span for o in self.occurrences if o.type_span is not None}
@@ -139,7 +137,8 @@ class Names:
         for item, made in zip(self._analysis.program, self._analysis.world.made, strict=True):
             content = item.content
             if isinstance(content, program.Assignment) and made.value is not None:
-                end, target_end = item.start + content.span[1], item.start + content.target.span[1]
+                _, end = content.span.within(item.start)
+                _, target_end = content.target.span.within(item.start)
                 found.setdefault(content.target.text, []).append(_Assigned(item.start, target_end, end, made.value))
         return found
 
@@ -163,17 +162,22 @@ def _tokens(analysis: Analysis) -> Iterator[Occurrence]:
                 yield Occurrence(name, match.span(1), Role.ASSIGNMENT if match[2] else Role.USE)
 
 
-def _names_of(item: ast.Item) -> Iterator[Occurrence]:
-    """The names in an item, with spans as its own."""
+class _Named(NamedTuple):
+    """A name of an item, what it is there for, and the type it is declared as."""
+
+    name: ast.Name
+    role: Role
+    type: ast.Keyword | ast.Name | None = None
+
+
+def _names_of(item: ast.Item) -> Iterator[_Named]:
     match item:
         case ast.Variables():
             for declaration in item.declarations:
                 for name in declaration.names:
-                    yield Occurrence(
-                        name.text, name.span, Role.DECLARATION, declaration.type.text, declaration.type.span
-                    )
+                    yield _Named(name, Role.DECLARATION, declaration.type)
         case ast.Assignment():
-            yield Occurrence(item.target.text, item.target.span, Role.ASSIGNMENT)
+            yield _Named(item.target, Role.ASSIGNMENT)
             if item.value is not None:
                 yield from _uses(item.value)
             yield from _body(item.body)
@@ -189,15 +193,15 @@ def _names_of(item: ast.Item) -> Iterator[Occurrence]:
                 yield from _uses(entry)
 
 
-def _body(body: ast.Body | None) -> Iterator[Occurrence]:
+def _body(body: ast.Body | None) -> Iterator[_Named]:
     for item in body.items if body is not None else ():
         yield from _names_of(item)
 
 
-def _uses(argument: ast.Argument) -> Iterator[Occurrence]:
+def _uses(argument: ast.Argument) -> Iterator[_Named]:
     match argument:
         case ast.Name():
-            yield Occurrence(argument.text, argument.span, Role.USE)
+            yield _Named(argument, Role.USE)
         case ast.Vector():
             for component in argument.components:
                 yield from _uses(component)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analysis
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from .comments import Comments, comments
 from .text import Span
@@ -101,7 +102,7 @@ class _Maker:
     def _block(self, item: ast.Block) -> Entry:
         keyword = item.keyword.text
         head = f"{keyword} {item.name.text}" if item.name is not None else keyword
-        body = None if item.body is None else self._start + item.body.span[0]
+        body = None if item.body is None else self._real(item.body.span)[0]
         title = self._remarks.title(self._real(item.span), body)
         children = self._children(item.body)
         name, detail = (title, head) if title is not None else (head, self._detail(item))
@@ -163,12 +164,12 @@ class _Maker:
         return tuple(entry for entry in entries if entry is not None)
 
     def _entry(
-        self, name: str, detail: str, keyword: str, span: Span, place: Span, children: tuple[Entry, ...]
+        self, name: str, detail: str, keyword: str, span: Local, place: Local, children: tuple[Entry, ...]
     ) -> Entry:
         return Entry(name, detail, keyword, False, self._real(span), self._real(place), children)
 
-    def _real(self, span: Span) -> Span:
-        return span[0] + self._start, span[1] + self._start
+    def _real(self, span: Local) -> Span:
+        return span.within(self._start)
 
     def _value(self, value: ast.Argument) -> str:
         start, end = self._real(value.span)

@@ -131,9 +131,9 @@ def _alone(part: Record, transform: Transform, places: Places) -> SceneIR:
 
 def _alone_object(record: Record, places: Places) -> SceneIR:
     """The IR of the primitives of one solid or light."""
-    solid = Record("SOLID", (0, 0))
+    solid = Record("SOLID", record.span)
     solid.parts, solid.transform = record.parts, record.transform
-    return lower(World(Record("SCENE", (0, 0)), (solid,), (), ()), "", places)
+    return lower(World(Record("SCENE", record.span), (solid,), (), ()), "", places)
 
 
 def _extent(extent: Extent | None) -> list[str]:

@@ -43,7 +43,7 @@ def row_starts(table: program.Table, start: int) -> NDArray[np.int64]:
     """Where the rows of a table begin, in bytes of the text, when its item begins at `start`."""
     if table.bulk is not None:
         return np.asarray(table.bulk.offsets).astype(np.int64) + (start - table.origin)
-    return np.array([start + row[0].span[0] for row in table.rows], np.int64)
+    return np.array([row[0].span.within(start)[0] for row in table.rows], np.int64)
 
 
 def facts(here: Standing, offset: int, *, images: bool) -> str:

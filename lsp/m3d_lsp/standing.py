@@ -59,7 +59,7 @@ def standing(analysis: Analysis, offset: int) -> Standing | None:
     content, at = item.content, offset - item.start
     if not isinstance(content, (program.Block, program.Assignment)):
         return None
-    if content.body is None or at > content.span[1] or _record(made) is None:
+    if content.body is None or at > content.span.end or _record(made) is None:
         return None
     body, blocks, member = _cut(content.body, at, in_transform=_type(content) == "TRANSFORM")
     short = _without_long_tables(body)
@@ -103,8 +103,7 @@ def _cut(
     """A body without what follows the block that holds a place, or, among transformations, the statement; the blocks
     around the place, and the statement or table there."""
     for number, member in enumerate(body):
-        start, end = member.span
-        if not start <= at < end:
+        if not member.span.start <= at < member.span.end:
             continue
         if isinstance(member, program.Block):
             inner, blocks, found = _cut(member.body, at, in_transform=member.entry.keyword == "TRANSFORM")
@@ -132,11 +131,11 @@ def _as_made(item: program.Item, made: Made, blocks: list[program.Block]) -> lis
     assert record is not None
     records = [record]
     for block in blocks:
-        keyword, start, end = block.entry.keyword, *block.span
+        keyword = block.entry.keyword
         if keyword == "TRANSFORM":
             continue
         if block.entry.adds:
-            place = (item.base + start, item.base + end)
+            place = block.span.at(item.base)
             record = next((part for part in record.parts if part.span == place), None)
         else:
             record = record.nested.get(keyword)
@@ -156,6 +155,6 @@ def _variables_before(analysis: Analysis, index: int) -> dict[str, Value]:
                 values[content.target.text] = made.value
         elif not isinstance(content, program.Block):
             for declaration in content:
-                start, end = declaration.name.span
-                values[declaration.name.text] = value_at_first(declaration.type, (item.base + start, item.base + end))
+                place = declaration.name.span.at(item.base)
+                values[declaration.name.text] = value_at_first(declaration.type, place)
     return values

@@ -59,7 +59,7 @@ def _end_of_block(here: Standing) -> int:
     """The last byte of the block about a place."""
     around = here.blocks[-1] if here.blocks else here.item.content
     assert isinstance(around, (program.Block, program.Assignment))
-    return here.item.start + around.span[1] - 1
+    return around.span.within(here.item.start)[1] - 1
 
 
 class _Rows:
@@ -68,7 +68,7 @@ class _Rows:
     def __init__(self, here: Standing, table: TableValue, data: bytes) -> None:
         self._table = table
         self._data = data
-        self._start, self._end = here.places.span(table.span)
+        self._start, self._end = here.places.absolute(table.span).bytes
 
     def at(self, offset: int) -> int | None:
         """The row that a byte stands in."""

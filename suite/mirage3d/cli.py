@@ -239,7 +239,7 @@ def _run(options: Options) -> int:
 def _print_errors(diagnostics: Sequence[m3dc.Diagnostic], source: m3dc.Source) -> None:
     """Line, caret and message, as thesis 7.3.1 shows them."""
     for diagnostic in diagnostics:
-        line, column = source.position(diagnostic.span[0])
+        line, column = source.position(diagnostic.span.start)
         kind = "Unrecoverable" if diagnostic.code in _UNRECOVERABLE else _KINDS[diagnostic.code[:5]]
         word = "Error" if diagnostic.severity == "error" else "Warning"
         print(f"{line} {source.line(line)}", file=sys.stderr)

@@ -38,7 +38,7 @@ def test_a_fix_never_adds_an_error(scene: Path) -> None:
     for diagnostic in result.diagnostics:
         if diagnostic.fix is None:
             continue
-        (start, end), new = diagnostic.fix.span, diagnostic.fix.text
+        (start, end), new = diagnostic.fix.span.bytes, diagnostic.fix.text
         data = text.encode()
         mended = m3dc.compile(data[:start] + new.encode() + data[end:])
         assert sum(d.severity == "error" for d in mended.diagnostics) <= errors
@@ -78,7 +78,7 @@ def test_a_fix_never_adds_an_error(scene: Path) -> None:
 )
 def test_a_fix_mends(wrong: str, mended: str) -> None:
     fix = next(diagnostic.fix for diagnostic in m3dc.compile(wrong).diagnostics if diagnostic.fix is not None)
-    assert wrong[: fix.span[0]] + fix.text + wrong[fix.span[1] :] == mended
+    assert wrong[: fix.span.start] + fix.text + wrong[fix.span.end :] == mended
 
 
 @pytest.mark.parametrize(
@@ -139,4 +139,4 @@ def test_related_places_and_details_help() -> None:
     assert diagnostic.fix.text == "radius"
     result = m3dc.compile("SCENE { } SCENE { }")
     (diagnostic,) = result.diagnostics
-    assert diagnostic.related[0].span == (0, 5)
+    assert diagnostic.related[0].span.bytes == (0, 5)

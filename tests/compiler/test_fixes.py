@@ -30,7 +30,7 @@ def fixed(data: bytes) -> bytes:
     """A text with all its certain fixes made at once."""
     for diagnostic in reversed(all_certain(m3dc.compile(data).diagnostics)):
         assert diagnostic.fix is not None
-        (start, end), new = diagnostic.fix.span, diagnostic.fix.text
+        (start, end), new = diagnostic.fix.span.bytes, diagnostic.fix.text
         data = data[:start] + new.encode() + data[end:]
     return data
 

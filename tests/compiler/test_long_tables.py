@@ -52,16 +52,16 @@ def test_an_error_in_a_long_table_is_on_its_place(broken: str, code: str, monkey
     result = assert_same_as_whole(text, monkeypatch)
     first = result.diagnostics[0]
     assert first.code in {code, "M3D0202"}
-    assert text.index(f"{broken} }} FACETS") <= first.span[0] < text.index("FACETS")
+    assert text.index(f"{broken} }} FACETS") <= first.span.start < text.index("FACETS")
 
 
 def test_errors_around_long_tables_are_on_their_places(monkeypatch: pytest.MonkeyPatch) -> None:
     text = scene(before="SOLID { SPHERE { RADIUS -1 } }", after="SOLID { SPHERE { RADIUS -2 } SPHERE { RADUIS 3 } }")
     result = assert_same_as_whole(text, monkeypatch)
-    assert [text[slice(*d.span)] for d in result.diagnostics] == ["-1", "-2", "RADUIS"]
+    assert [text[slice(*d.span.bytes)] for d in result.diagnostics] == ["-1", "-2", "RADUIS"]
     assert (
-        result.source.position(result.diagnostics[1].span[0]).line
-        == text[: result.diagnostics[1].span[0]].count("\n") + 1
+        result.source.position(result.diagnostics[1].span.start).line
+        == text[: result.diagnostics[1].span.start].count("\n") + 1
     )
 
 

@@ -45,9 +45,9 @@ def said(scene: str) -> list[str]:
     for found in result.diagnostics:
         if found.code == "M3D0503" or found.severity == "hint":
             continue
-        line, column = result.source.position(found.span[0])
+        line, column = result.source.position(found.span.start)
         fix = "" if found.fix is None else f" + {found.fix.text.strip() or found.fix.title}"
-        place = f"{line}:{column} {result.source.text(*found.span).splitlines()[:1] or ['']}"
+        place = f"{line}:{column} {result.source.text(*found.span.bytes).splitlines()[:1] or ['']}"
         lines.append(f"{place} {found.severity} {found.code} {found.message}{' '.join(fix.split(chr(10)))}")
     return lines
 
@@ -70,6 +70,6 @@ def test_each_mistake_has_at_most_one_error(mistake: Mistake) -> None:
     for error in errors:
         if error.fix is None:
             continue
-        (start, end), data = error.fix.span, result.source.data
+        (start, end), data = error.fix.span.bytes, result.source.data
         mended = m3dc.compile(data[:start] + error.fix.text.encode() + data[end:])
         assert error._replace(fix=None) not in [d._replace(fix=None) for d in mended.diagnostics]

@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
         """Whether the first diagnostic is in the block that was changed, or at its very edge."""
         assert self.first is not None
         start, end = self.mutation.block
-        return start <= self.first.span[0] <= end + 1
+        return start <= self.first.span.start <= end + 1
 
 
 def outcomes(seed: int, count: int) -> Iterator[Outcome]:
@@ -95,7 +95,7 @@ def main() -> None:
         assert outcome.first is not None
         source = outcome.result.source
         at = source.position(outcome.mutation.at)
-        where = source.position(outcome.first.span[0])
+        where = source.position(outcome.first.span.start)
         print(
             f"{outcome.mutation.what} at {at.line}:{at.column} -> {where.line}:{where.column} {outcome.first.message}"
         )

@@ -79,8 +79,8 @@ def test_all_that_the_language_can_write_down_is_near_enough(text: str) -> None:
 def test_of_a_copy_the_place_is_where_it_is_used() -> None:
     text = FAR["a variable"]
     (diagnostic,) = (d for d in m3dc.compile(text).diagnostics if d.severity == "error")
-    assert text[slice(*diagnostic.span)] == "SOLID a { TRANSFORM { SCALEX 1e15 } }"
-    assert text[slice(*diagnostic.related[0].span)] == "SPHERE { RADIUS 1e20 }"
+    assert text[slice(*diagnostic.span.bytes)] == "SOLID a { TRANSFORM { SCALEX 1e15 } }"
+    assert text[slice(*diagnostic.related[0].span.bytes)] == "SPHERE { RADIUS 1e20 }"
 
 
 def test_after_an_edit_it_is_still_said() -> None:

@@ -24,7 +24,7 @@ def test_more_primitives_than_fit_are_said_at_the_one_too_many() -> None:
     (error,) = (d for d in result.diagnostics if d.severity == "error")
     assert (error.code, error.headline) == ("M3D0412", "Too many solids, primitives and textures")
     assert error.detail == "with this there are 2,001,000, at most 2,000,000"
-    assert text[: error.span[0]].count("SOLID a ") == LANGUAGE.limits["parts"] // 2001
+    assert text[: error.span.start].count("SOLID a ") == LANGUAGE.limits["parts"] // 2001
     assert len(result.ir["primitives"]["kind"]) == 0
     assert result.ir.scene.depth == 5
     assert Analyser().analyse(m3dc.Source(text.encode())).diagnostics == result.diagnostics

@@ -89,13 +89,13 @@ def test_of_much_junk_only_the_beginning_is_read(line: bytes) -> None:
     """The rest costs nothing: what is found is found in the first half megabyte."""
     much = m3dc.compile(line * (6_000_000 // len(line)))
     assert not much.ok
-    assert max(diagnostic.span[1] for diagnostic in much.diagnostics) <= HEAD + len(line)
+    assert max(diagnostic.span.end for diagnostic in much.diagnostics) <= HEAD + len(line)
 
 
 def test_a_long_scene_that_is_not_closed_is_read_to_its_end() -> None:
     text = b"SOLID {\n" + (b"SPHERE { RADIUS 1 }" + b" " * 400 + b"\n") * 10_000 + b"SPHERE { RADIUS x } }"
     (error,) = (d for d in m3dc.compile(text).diagnostics if d.severity == "error")
-    assert text[slice(*error.span)] == b"x"
+    assert text[slice(*error.span.bytes)] == b"x"
 
 
 def test_a_broken_list_of_a_million_numbers() -> None:

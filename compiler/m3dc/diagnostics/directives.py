@@ -11,9 +11,10 @@ from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from ..text.source import Source
+from ..text.span import Absolute, Span
 from . import catalogue
 from .catalogue import CATALOGUE
-from .findings import Diagnostic, Fix
+from .findings import Diagnostic, Fix, finding
 
 ALLOW = re.compile(rb"/\*\s*m3d:\s*allow\s+([A-Z0-9,\s]+?)\s*\*/")
 _DIRECTIVE = re.compile(rb"/\*\s*m3d:\s*([A-Za-z]*)([^*]*)\*/")
@@ -38,7 +39,7 @@ def without_allowed(diagnostics: list[Diagnostic], source: Source) -> Iterable[D
                 by_line.setdefault(covered, set()).update(codes)
 
     def allowed(diagnostic: Diagnostic) -> bool:
-        line = source.position(diagnostic.span[0]).line
+        line = source.position(diagnostic.span.start).line
         return diagnostic.severity != "error" and diagnostic.code in everywhere | by_line.get(line, set())
 
     return (diagnostic for diagnostic in diagnostics if not allowed(diagnostic))
@@ -51,29 +52,29 @@ def wrong_directives(source: Source) -> Iterator[Diagnostic]:
     for match in _DIRECTIVE.finditer(source.data):
         word = match[1].decode()
         if word != "allow":
-            yield _wrong(match.span(1), f"{word!r} is no directive; allow is the only one", word, ["allow"])
+            yield _wrong(source, match.span(1), f"{word!r} is no directive; allow is the only one", word, ["allow"])
             continue
         for code in _WORD.finditer(source.data, *match.span(2)):
             text = code[0].decode("utf-8", "replace")
             entry = CATALOGUE.get(text)
             if entry is None:
                 kept = [code for code, entry in CATALOGUE.items() if entry.severity != "error"]
-                yield _wrong(code.span(), f"{text} is no code of a diagnostic", text, kept)
+                yield _wrong(source, code.span(), f"{text} is no code of a diagnostic", text, kept)
             elif entry.severity == "error":
-                yield _wrong(code.span(), f"{text} is an error, which can not be kept back", "", [])
+                yield _wrong(source, code.span(), f"{text} is an error, which can not be kept back", "", [])
 
 
-def _wrong(span: tuple[int, int], detail: str, word: str, words: list[str]) -> Diagnostic:
-    entry = catalogue.IDLE_DIRECTIVE
+def _wrong(source: Source, span: Span, detail: str, word: str, words: list[str]) -> Diagnostic:
+    place = Absolute(source.file, *span)
     near = get_close_matches(word.upper() if words != ["allow"] else word.lower(), words, 2, 0.8)
     detail += f"; did you mean {near[0]}?" if near else ""
     # A code in lower case is certain; of others several are alike.
     fix = (
-        Fix(f"Replace with {near[0]}", span, near[0], certain=True)
+        Fix(f"Replace with {near[0]}", place, near[0], certain=True)
         if near and near[0].lower() == word.lower()
         else None
     )
-    return Diagnostic(entry.code, entry.severity, entry.headline, span, detail, (), fix)
+    return finding(catalogue.IDLE_DIRECTIVE, place, detail, fix=fix)
 
 
 def heading_end(data: bytes) -> int:

@@ -1,21 +1,32 @@
-"""Diagnostics: what is wrong in a scene, where, what was expected, and how to mend it."""
+"""Diagnostics: what is wrong in a scene, where, what was expected, and how to mend it.
 
-from collections.abc import Iterable
-from typing import NamedTuple
+A stage adds what it finds in an item with places in that item (`ItemFindings`), and what it finds of a record, which
+may stand anywhere, with the record's own place (`Findings.add_at`). Both are collected with places among all items
+(`Placed`), and become diagnostics, with places in a file (`Absolute`), when all is found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from ..text.places import Places
-from ..text.span import Span
+from ..text.span import WHOLE, Absolute, Base, Local, Placed, Span
 from .catalogue import Entry, Severity
 
+At = TypeVar("At")
+"""What places count from: Span, Local, Placed or Absolute."""
+To = TypeVar("To")
 
-class Related(NamedTuple):
+
+class Related(NamedTuple, Generic[At]):
     """Another place that has to do with a diagnostic."""
 
-    span: Span
+    span: At
     message: str
 
 
-class Fix(NamedTuple):
+class Fix(NamedTuple, Generic[At]):
     """An edit that mends it: `text` in place of `span`.
 
     A `certain` one gives what the author meant, for nothing else can have been meant, and loses nothing he wrote: only
@@ -24,21 +35,21 @@ class Fix(NamedTuple):
     """
 
     title: str
-    span: Span
+    span: At
     text: str
     certain: bool = False
 
 
-class Diagnostic(NamedTuple):
-    """One finding. `span` is a half-open range of bytes of the source; `code` is a key of the catalogue."""
+class Finding(NamedTuple, Generic[At]):
+    """Something to say of a scene; `code` is a key of the catalogue."""
 
     code: str
     severity: Severity
     headline: str
-    span: Span
+    span: At
     detail: str = ""
-    related: tuple[Related, ...] = ()
-    fix: Fix | None = None
+    related: tuple[Related[At], ...] = ()
+    fix: Fix[At] | None = None
 
     @property
     def message(self) -> str:
@@ -46,41 +57,67 @@ class Diagnostic(NamedTuple):
         return f"{self.headline}: {self.detail}" if self.detail else self.headline
 
 
+Diagnostic: TypeAlias = Finding[Absolute]
+"""A finding at its place in a file."""
+
+
+def finding(
+    entry: Entry,
+    span: At,
+    detail: str = "",
+    *,
+    fill: str = "",
+    related: tuple[Related[At], ...] = (),
+    fix: Fix[At] | None = None,
+) -> Finding[At]:
+    """A finding of a kind of the catalogue's. `fill` goes into its headline, `detail` says what was found and
+    expected."""
+    headline = entry.headline.format(fill) if fill else entry.headline
+    return Finding(entry.code, entry.severity, headline, span, detail, related, fix)
+
+
 def all_certain(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
     """The diagnostics whose fixes can be applied all at once, in the order of these: the fixes are certain, and of
     those that get in each other's way it is the first."""
     chosen: list[Diagnostic] = []
-    done = -1
+    done = (-1, -1)
     for diagnostic in sorted((d for d in diagnostics if d.fix and d.fix.certain), key=_fixed):
-        start, end = _fixed(diagnostic)
-        if start > done:
+        fixed = _fixed(diagnostic)
+        if (fixed.file, fixed.start) > done:
             chosen.append(diagnostic)
-            done = end
+            done = (fixed.file, fixed.end)
     return chosen
 
 
-def _fixed(diagnostic: Diagnostic) -> Span:
+def _fixed(diagnostic: Diagnostic) -> Absolute:
     """What the fix of a diagnostic takes the place of."""
     assert diagnostic.fix is not None
     return diagnostic.fix.span
 
 
-def placed(diagnostic: Diagnostic, places: Places) -> Diagnostic:
-    """A diagnostic whose places count from bases of their own, with places of the text."""
-    fix = diagnostic.fix
-    return diagnostic._replace(
-        span=places.span(diagnostic.span),
-        related=tuple(other._replace(span=places.span(other.span)) for other in diagnostic.related),
-        fix=fix and fix._replace(span=places.span(fix.span)),
+def moved(found: Finding[At], to: Callable[[At], To]) -> Finding[To]:
+    """The same with each of its places counted from somewhere else."""
+    return Finding(
+        found.code,
+        found.severity,
+        found.headline,
+        to(found.span),
+        found.detail,
+        tuple(Related(to(other.span), other.message) for other in found.related),
+        None if found.fix is None else moved_fix(found.fix, to),
     )
 
 
-class Findings:
-    """Collects diagnostics whose places are given relative to `base`, the start of the item being looked at."""
+def moved_fix(fix: Fix[At], to: Callable[[At], To]) -> Fix[To]:
+    """The same with its place counted from somewhere else."""
+    return Fix(fix.title, to(fix.span), fix.text, fix.certain)
+
+
+class TextFindings:
+    """Collects what is wrong in the form of a whole text, as places of that text."""
 
     def __init__(self) -> None:
-        self.found: list[Diagnostic] = []
-        self.base = 0
+        self.found: list[Finding[Span]] = []
 
     def add(
         self,
@@ -89,22 +126,61 @@ class Findings:
         detail: str = "",
         *,
         fill: str = "",
-        related: tuple[Related, ...] = (),
-        fix: Fix | None = None,
+        related: tuple[Related[Span], ...] = (),
+        fix: Fix[Span] | None = None,
     ) -> None:
-        """Report `entry` of the catalogue at `span`. `fill` goes into its headline, `detail` says what was found and
-        expected."""
-        headline = entry.headline.format(fill) if fill else entry.headline
-        if fix is not None:
-            fix = fix._replace(span=self.absolute(fix.span))
-        self.found.append(Diagnostic(entry.code, entry.severity, headline, self.absolute(span), detail, related, fix))
+        """Report `entry` at `span` (see `finding`)."""
+        self.found.append(finding(entry, span, detail, fill=fill, related=related, fix=fix))
+
+
+class Findings:
+    """Collects all that is found in a scene."""
+
+    def __init__(self) -> None:
+        self.found: list[Finding[Placed]] = []
 
     def add_at(
-        self, entry: Entry, span: Span, detail: str = "", *, fill: str = "", related: tuple[Related, ...] = ()
+        self,
+        entry: Entry,
+        place: Placed,
+        detail: str = "",
+        *,
+        fill: str = "",
+        related: tuple[Related[Placed], ...] = (),
     ) -> None:
-        """As `add`, at a place of the whole text."""
-        self.add(entry, (span[0] - self.base, span[1] - self.base), detail, fill=fill, related=related)
+        """Report `entry` at a place of any item (see `finding`)."""
+        self.found.append(finding(entry, place, detail, fill=fill, related=related))
 
-    def absolute(self, span: Span) -> Span:
-        """A place of the current item as a place of the whole text."""
-        return span[0] + self.base, span[1] + self.base
+    def add_text(self, findings: TextFindings, base: Base = WHOLE) -> None:
+        """Take over what was found in the whole text of a file."""
+        self.found += [moved(found, lambda span: Placed(span[0] + base, span[1] + base)) for found in findings.found]
+
+    def diagnostics(self, places: Places) -> Iterator[Diagnostic]:
+        """All findings, where they stand in their files."""
+        return (moved(found, places.absolute) for found in self.found)
+
+
+class ItemFindings:
+    """Collects what is found in one item, given as places of the item."""
+
+    def __init__(self, findings: Findings, base: Base) -> None:
+        self._findings = findings
+        self._base = base
+
+    def add(
+        self,
+        entry: Entry,
+        span: Local,
+        detail: str = "",
+        *,
+        fill: str = "",
+        related: tuple[Related[Placed], ...] = (),
+        fix: Fix[Local] | None = None,
+    ) -> None:
+        """Report `entry` at `span` (see `finding`). What is `related` may stand in any item."""
+        mended = None if fix is None else moved_fix(fix, self.place)
+        self._findings.found.append(finding(entry, self.place(span), detail, fill=fill, related=related, fix=mended))
+
+    def place(self, span: Local) -> Placed:
+        """A place of the item as one among all items."""
+        return span.at(self._base)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import IO, Any
 
 from ..text.source import Source
+from ..text.span import Absolute
 from .catalogue import CATALOGUE
 from .findings import Diagnostic, Related
 
@@ -48,7 +49,7 @@ def summary(diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def _print_one(diagnostic: Diagnostic, source: Source, file: IO[str], style: _Style) -> None:
-    line, column = source.position(diagnostic.span[0])
+    line, column = source.position(diagnostic.span.start)
     place = style("place", f"{source.name}:{line}:{column}:")
     kind = style(diagnostic.severity, f"{diagnostic.severity}[{diagnostic.code}]")
     print(f"{place} {kind}: {style('place', diagnostic.headline)}", file=file)
@@ -57,14 +58,14 @@ def _print_one(diagnostic: Diagnostic, source: Source, file: IO[str], style: _St
     if diagnostic.detail:
         print(f"{_GUTTER}{mark} {diagnostic.detail}", file=file)
     for related in diagnostic.related:
-        where = source.position(related.span[0])
+        where = source.position(related.span.start)
         print(f"{_GUTTER}{mark} {related.message}: {source.name}:{where.line}:{where.column}", file=file)
     if diagnostic.fix is not None:
         print(f"{_GUTTER}{mark} {style('help', 'help:')} {diagnostic.fix.title}", file=file)
 
 
 def _print_excerpt(diagnostic: Diagnostic, source: Source, file: IO[str], style: _Style) -> None:
-    start, end = diagnostic.span
+    start, end = diagnostic.span.bytes
     line, column = source.position(start)
     text = source.line(line).replace("\t", " ")
     last_line, last_column = source.position(max(start, end))
@@ -86,11 +87,11 @@ def print_echo(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str])
     """The whole source with line numbers, each diagnostic under its line (the 1993 program's -E)."""
     by_line: dict[int, list[Diagnostic]] = {}
     for diagnostic in diagnostics:
-        by_line.setdefault(source.position(diagnostic.span[0]).line, []).append(diagnostic)
+        by_line.setdefault(source.position(diagnostic.span.start).line, []).append(diagnostic)
     for number in range(1, source.line_count + 1):
         print(f"{number:5}   {source.line(number)}", file=file)
         for diagnostic in by_line.get(number, ()):
-            column = source.position(diagnostic.span[0]).column
+            column = source.position(diagnostic.span.start).column
             print(f"{' ' * (7 + column)}^ {diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}", file=file)
 
 
@@ -144,15 +145,15 @@ def valid(text: str) -> str:
     return re.sub("[\ud800-\udfff]", "\ufffd", text)
 
 
-def _place(span: tuple[int, int], source: Source) -> dict[str, int]:
-    start, end = source.position(span[0]), source.position(span[1])
+def _place(span: Absolute, source: Source) -> dict[str, int]:
+    start, end = source.position(span.start), source.position(span.end)
     return {
         "line": start.line,
         "column": start.column,
         "end_line": end.line,
         "end_column": end.column,
-        "start_byte": span[0],
-        "end_byte": span[1],
+        "start_byte": span.start,
+        "end_byte": span.end,
     }
 
 
@@ -196,12 +197,12 @@ def _sarif_result(diagnostic: Diagnostic, source: Source, codes: list[str]) -> d
     }
 
 
-def _sarif_related(related: Related, source: Source) -> dict[str, Any]:
+def _sarif_related(related: Related[Absolute], source: Source) -> dict[str, Any]:
     return {"physicalLocation": _sarif_place(related.span, source), "message": {"text": related.message}}
 
 
-def _sarif_place(span: tuple[int, int], source: Source) -> dict[str, Any]:
-    start, end = source.position(span[0]), source.position(span[1])
+def _sarif_place(span: Absolute, source: Source) -> dict[str, Any]:
+    start, end = source.position(span.start), source.position(span.end)
     return {
         "artifactLocation": {"uri": uri_reference(source.name)},
         "region": {
@@ -209,8 +210,8 @@ def _sarif_place(span: tuple[int, int], source: Source) -> dict[str, Any]:
             "startColumn": start.column,
             "endLine": end.line,
             "endColumn": end.column,
-            "byteOffset": span[0],
-            "byteLength": span[1] - span[0],
+            "byteOffset": span.start,
+            "byteLength": span.end - span.start,
         },
     }
 

@@ -7,7 +7,7 @@ errors has no layout: `FormatError` says where the first one is. What stands bes
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from tree_sitter import Node, Tree
@@ -92,13 +92,13 @@ class _Piece(NamedTuple):
 def _layout(data: bytes) -> Layout:
     findings = Findings()
     source = Source(data)
-    tree = parse(source, findings).tree
-    first = _first_fault(findings)
+    syntax = parse(source, findings)
+    first = _first_fault(findings.diagnostics(syntax.places))
     if first is not None:
-        raise FormatError(first.message, first.span)
-    if tree.root_node.has_error:
+        raise FormatError(first.message, first.span.bytes)
+    if syntax.tree.root_node.has_error:
         raise FormatError("Syntax error", (0, 0))
-    return _whole(data, source, tree).layout()
+    return _whole(data, source, syntax.tree).layout()
 
 
 def _pieces(data: bytes) -> list[_Piece]:
@@ -106,7 +106,7 @@ def _pieces(data: bytes) -> list[_Piece]:
     findings = Findings()
     source = Source(data)
     syntax = parse(source, findings)
-    if _first_fault(findings) is None and not syntax.tree.root_node.has_error:
+    if _first_fault(findings.diagnostics(syntax.places)) is None and not syntax.tree.root_node.has_error:
         return [_whole(data, source, syntax.tree)]
     runs: list[list[Node]] = [[]]
     for node in syntax.tree.root_node.children:
@@ -117,8 +117,8 @@ def _pieces(data: bytes) -> list[_Piece]:
     return [_run(data, source, items) for run in runs if (items := _between_comments(run))]
 
 
-def _first_fault(findings: Findings) -> Diagnostic | None:
-    faults = [found for found in findings.found if found.severity == "error" and found.code not in _NOT_FORM]
+def _first_fault(diagnostics: Iterable[Diagnostic]) -> Diagnostic | None:
+    faults = [found for found in diagnostics if found.severity == "error" and found.code not in _NOT_FORM]
     return min(faults, key=lambda fault: fault.span, default=None)
 
 

@@ -14,7 +14,7 @@ from ..meaning.evaluate import World
 from ..meaning.transform import IDENTITY, Matrix, Transform, cosine_and_sine, unit
 from ..meaning.values import Record
 from ..text.places import Places
-from ..text.span import Span
+from ..text.span import Placed, Span
 from .tables import LightKind, PrimitiveKind, TextureKind
 
 
@@ -58,8 +58,13 @@ class _Rows:
                     for name, column in columns.items()
                 }
             if "span" in columns:
-                made[table]["span"] = self.places.array(made[table]["span"])
+                made[table]["span"] = self.places.bytes(made[table]["span"])
         return made
+
+
+def _ends(placed: Placed) -> tuple[int, int]:
+    """Both ends of a place, as a row holds them until all are made bytes at once."""
+    return placed.start, placed.end
 
 
 def _joined(chunks: list[NDArray[Any]]) -> NDArray[Any]:
@@ -80,15 +85,15 @@ def lower(world: World, source: str, places: Places) -> ir.SceneIR:
     mirage = world.scene.nested.get("MIRAGE")
     profile = mirage.tables.get("PROFILE") if mirage is not None else None
     if profile is not None and len(profile.rows):
-        starts = profile.offsets.astype(np.int64) + profile.span[0]
+        starts = profile.offsets.astype(np.int64) + profile.span.start
         rows.extend(
             "profile",
             elevation=profile.rows[:, 0],
             temperature=profile.rows[:, 1],
-            span=np.stack([starts, np.append(starts[1:], profile.span[1])], axis=1),
+            span=np.stack([starts, np.append(starts[1:], profile.span.end)], axis=1),
         )
     tables = rows.tables()
-    spans = {keyword: places.span(record.span) for keyword, record in _once(world.scene)}
+    spans = {keyword: places.absolute(record.span).bytes for keyword, record in _once(world.scene)}
     return ir.SceneIR(_scene(world.scene, sun, _extent(tables), tables["profile"], spans), tables, source)
 
 
@@ -112,7 +117,7 @@ def _solid(rows: _Rows, record: Record) -> None:
         inverse=_clean(record.transform.inverse),
         first_primitive=first,
         primitive_count=rows.count("primitives") - first,
-        span=record.span,
+        span=_ends(record.span),
     )
     _surface(rows, record.member("SURFACE"))
 
@@ -142,7 +147,7 @@ def _light(rows: _Rows, record: Record) -> int:
         inverse=_clean(record.transform.inverse),
         first_primitive=first,
         primitive_count=rows.count("primitives") - first,
-        span=record.span,
+        span=_ends(record.span),
     )
 
 
@@ -199,7 +204,7 @@ def _texture(rows: _Rows, record: Record) -> None:
                 end=end,
                 start_color=pair[:3],
                 end_color=pair[3:],
-                span=(colors.place(row)[0], colors.span[1]),
+                span=_ends(Placed(colors.place(row).start, colors.span.end)),
             )
     for wave in record.parts:
         rows.add(
@@ -209,7 +214,7 @@ def _texture(rows: _Rows, record: Record) -> None:
             freq=wave.number("FREQ"),
             phase=wave.number("PHASE"),
             damp=wave.number("DAMP"),
-            span=wave.span,
+            span=_ends(wave.span),
         )
     rows.add(
         "textures",
@@ -227,7 +232,7 @@ def _texture(rows: _Rows, record: Record) -> None:
         color_range_count=rows.count("color_ranges") - first_range,
         first_wave=first_wave,
         wave_count=rows.count("waves") - first_wave,
-        span=record.span,
+        span=_ends(record.span),
     )
 
 
@@ -251,7 +256,7 @@ def _primitive(rows: _Rows, record: Record, parent: Transform, *, solid: int = -
         light=light,
         transform=record.transform.matrix,
         inverse=_clean(record.transform.inverse),
-        span=record.span,
+        span=_ends(record.span),
     )
 
 
@@ -293,7 +298,7 @@ def _mesh(rows: _Rows, record: Record, transform: Transform) -> int:
         "facets",
         vertex=mesh.facets + np.int32(first_vertex),
         normal=normal_rows,
-        offset=mesh.offsets + np.uint32(rows.places.real(mesh.origin)),
+        offset=mesh.offsets + np.uint32(rows.places.absolute(mesh.table).start),
     )
     return rows.add(
         "meshes",

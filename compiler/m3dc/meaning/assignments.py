@@ -11,18 +11,24 @@ from typing import NamedTuple
 
 from ..diagnostics import Findings, catalogue
 from ..syntax import ast
-from ..text.span import Span
+from ..text.span import Base, Local, Placed
 from . import program
 
 
+class Given(NamedTuple):
+    """The variable that an assignment gives a value, whether nothing of the value before is left, and where it
+    stands."""
+
+    target: str
+    replaces: bool
+    span: Local
+
+
 class Usage(NamedTuple):
-    """What an item does with variables: the names that it uses; and, of an assignment, the variable that is given a
-    value, whether nothing of the value before is left, and where it stands."""
+    """What an item does with variables: the names that it uses; and what it gives one, if it is an assignment."""
 
     uses: frozenset[str]
-    target: str | None = None
-    replaces: bool = False
-    span: Span = (0, 0)
+    gives: Given | None = None
 
 
 def usage(content: program.Content) -> Usage:
@@ -31,7 +37,7 @@ def usage(content: program.Content) -> Usage:
         case program.Assignment():
             value = () if content.value is None else (content.value,)
             uses = frozenset((*_names(value), *_used(content.body or ())))
-            return Usage(uses, content.target.text, content.value is not None, content.span)
+            return Usage(uses, Given(content.target.text, content.value is not None, content.span))
         case program.Block():
             return Usage(frozenset(_used((content,))))
         case _:
@@ -64,32 +70,26 @@ def _names(arguments: Iterable[ast.Argument]) -> Iterator[str]:
                 pass
 
 
-class _Pending(NamedTuple):
-    base: int
-    span: Span
-
-
-def report_unused_values(items: Iterable[tuple[int, Usage]], findings: Findings) -> None:
+def report_unused_values(items: Iterable[tuple[Base, Usage]], findings: Findings) -> None:
     """Report the assignments whose value nothing uses, given the base and the usage of each item in the order of the
     file. Of a variable that is never used nothing is said: that is another diagnostic."""
-    pending: dict[str, list[_Pending]] = {}
-    lost: list[tuple[str, _Pending, str]] = []
+    pending: dict[str, list[Placed]] = {}
+    lost: list[tuple[str, Placed, str]] = []
     used: set[str] = set()
     for base, item in items:
         used |= item.uses
         for name in item.uses:
             pending.pop(name, None)
-        if item.target is not None:
-            before = pending.setdefault(item.target, [])
-            if item.replaces:
-                detail = f"{item.target} is assigned to again before anything uses it"
-                lost += [(item.target, each, detail) for each in before]
+        if item.gives is not None:
+            target, replaces, span = item.gives
+            before = pending.setdefault(target, [])
+            if replaces:
+                detail = f"{target} is assigned to again before anything uses it"
+                lost += [(target, place, detail) for place in before]
                 before.clear()
-            before.append(_Pending(base, item.span))
+            before.append(span.at(base))
     for name, left in pending.items():
-        lost += [(name, each, f"nothing uses {name} after this") for each in left]
-    for name, (base, span), detail in lost:
+        lost += [(name, place, f"nothing uses {name} after this") for place in left]
+    for name, place, detail in lost:
         if name in used:
-            findings.base = base
-            findings.add(catalogue.UNUSED_VALUE, span, detail)
-    findings.base = 0
+            findings.add_at(catalogue.UNUSED_VALUE, place, detail)

@@ -16,14 +16,15 @@ from m3d_language import Stop, read_table
 from m3d_language import table as language
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings, Fix, Related, catalogue
+from ..diagnostics import Findings, Fix, ItemFindings, Related, catalogue
+from ..diagnostics.findings import moved_fix
 from ..diagnostics.spelling import Names, certain, nearest
 from ..diagnostics.words import CAPITALS, place_of, statement_of, takes
 from ..syntax import ast, numerals
 from ..syntax.table_faults import layout_of, table_fault
 from ..text.cut import cut
 from ..text.source import Source
-from ..text.span import Span
+from ..text.span import WHOLE, Local, Placed, Span
 from . import program
 from .memo import Ledger, Steps
 
@@ -61,7 +62,7 @@ class Known(NamedTuple):
     it. Nor is of a variable whose type is "": what its declaration says could not be read."""
 
     type: str
-    place: Span
+    place: Placed
     assigned: bool = False
     used: bool = False
     unknown: bool = False
@@ -75,7 +76,8 @@ class Checker:
         self, source: Source, findings: Findings, *, names: bool = True, lost: frozenset[str] = frozenset()
     ) -> None:
         self._data = source.data
-        self._findings = findings
+        self._all = findings
+        self._findings = ItemFindings(findings, WHOLE)  # of the item being checked
         self._names = names
         self._start = 0
         self._said_count = False  # of the current block, that a table lacks its count
@@ -84,12 +86,12 @@ class Checker:
         self._known = Names(())
         self._words_known = 0
         for name in lost:
-            self.known[_lost(name)] = Known("", (0, 0))
+            self.known[_lost(name)] = Known("", Placed(0, 0))
 
     def item(self, top: ast.TopLevel) -> program.Content | None:
         """One top-level item; None where nothing of it can be used."""
         self._start = top.start
-        self._findings.base = top.base
+        self._findings = ItemFindings(self._all, top.base)
         return self._content(top.item)
 
     def _content(self, item: ast.Item) -> program.Content | None:
@@ -126,7 +128,7 @@ class Checker:
                     continue
                 wrong = type_ != declaration.type.text
                 lost = type_ in LANGUAGE.basics and self.known.get(_lost(name.text)) is not None
-                place = self._findings.absolute(name.span)
+                place = self._findings.place(name.span)
                 self.known[name.text] = Known(type_, place, assigned=lost or wrong, used=wrong, unknown=lost)
                 if type_:
                     declared.append(program.Declaration(name, type_))
@@ -150,37 +152,45 @@ class Checker:
                 says = f"the types are {', '.join(LANGUAGE.types)}"
             self._findings.add(catalogue.INVALID_TYPE, type_.span, f"{type_.text} is not a type; {says}", fix=fix)
 
-    def _in_capitals(self, words: list[ast.Keyword | ast.Name]) -> Fix | None:
+    def _in_capitals(self, words: list[ast.Keyword | ast.Name]) -> Fix[Local] | None:
         """The fix that writes some words of the item in capitals."""
-        (start, _), (_, end) = words[0].span, words[-1].span
-        text = bytearray(self._data[start + self._start : end + self._start])
+        whole = Local(words[0].span.start, words[-1].span.end)
+        text = bytearray(self._bytes(whole))
         for word in words:
-            text[word.span[0] - start : word.span[1] - start] = word.text.upper().encode()
+            text[word.span.start - whole.start : word.span.end - whole.start] = word.text.upper().encode()
         places = f" ({len(words)} places)" if len(words) > 1 else ""
         try:
-            return Fix(f"Write {words[0].text.upper()}{places}", (start, end), text.decode(), certain=True)
+            return Fix(f"Write {words[0].text.upper()}{places}", whole, text.decode(), certain=True)
         except UnicodeDecodeError:
             return None
 
-    def _without(self, declaration: ast.Declaration, number: int) -> Span:
+    def _without(self, declaration: ast.Declaration, number: int) -> Local:
         """What to cut out so that a declaration lacks one of its names, or is gone with its only one."""
         names = declaration.names
         if number:
-            return names[number - 1].span[1], names[number].span[1]
-        return (names[0].span[0], names[1].span[0]) if len(names) > 1 else self._cut(declaration.span)
+            return Local(names[number - 1].span.end, names[number].span.end)
+        return Local(names[0].span.start, names[1].span.start) if len(names) > 1 else self._cut(declaration.span)
 
-    def _cut(self, span: Span) -> Span:
+    def _cut(self, span: Local) -> Local:
         """A part of the current item, with what goes with it when it is cut out."""
-        start, end = cut(self._data, span[0] + self._start, span[1] + self._start)
-        return max(start - self._start, 0), end - self._start
+        start, end = cut(self._data, *span.within(self._start))
+        return self._local((max(start, self._start), end))
 
-    def _text(self, span: Span) -> bytes:
+    def _local(self, span: Span) -> Local:
+        """A part of the text as one of the current item."""
+        return Local(span[0] - self._start, span[1] - self._start)
+
+    def _bytes(self, span: Local) -> bytes:
+        """What is written in a part of the current item."""
+        return self._data[slice(*span.within(self._start))]
+
+    def _text(self, span: Local) -> bytes:
         """The words in a part of the current item."""
-        return b" ".join(self._data[span[0] + self._start : span[1] + self._start].split())
+        return b" ".join(self._bytes(span).split())
 
-    def _only_once(self, keyword: str, span: Span, message: str, seen: dict[str, Span] | None) -> bool:
+    def _only_once(self, keyword: str, span: Local, message: str, seen: dict[str, Placed] | None) -> bool:
         """Whether this is the first of what was `seen` in a block, or, without that, in the file; reports any other."""
-        place = self._findings.absolute(span)
+        place = self._findings.place(span)
         if seen is None:
             known = self.known.get(keyword)
             first = place if known is None else known.place
@@ -249,10 +259,9 @@ class Checker:
 
     def report_unused(self) -> None:
         """Report the variables that nothing has used, after the last item."""
-        self._findings.base = 0
         for name, known in self._variables_known():
             if not known.used and known.type:
-                self._findings.add(catalogue.UNUSED_VARIABLE, known.place, f"nothing uses {name}")
+                self._all.add_at(catalogue.UNUSED_VARIABLE, known.place, f"nothing uses {name}")
 
     def _assignment(self, item: ast.Assignment) -> program.Assignment | None:
         if not self._names:
@@ -270,7 +279,7 @@ class Checker:
             return None
         if isinstance(value, ast.Name):
             if value.text == item.target.text:
-                gone = item.span if item.body is None else (value.span[0], item.body.span[0])
+                gone = item.span if item.body is None else Local(value.span.start, item.body.span.start)
                 # That another name is meant can not be told where there is nothing else.
                 title = f"Remove {'the assignment' if item.body is None else value.text}"
                 fix = Fix(title, gone, "", certain=item.body is not None)
@@ -316,7 +325,7 @@ class Checker:
 
     # --- blocks -------------------------------------------------------------------------------------------------
 
-    def _block(self, item: ast.Block, entry: language.Block, seen: dict[str, Span]) -> program.Block | None:
+    def _block(self, item: ast.Block, entry: language.Block, seen: dict[str, Placed]) -> program.Block | None:
         first = True
         if entry.once is not None and self._names:
             inside = None if entry.keyword in LANGUAGE.top else seen
@@ -332,8 +341,8 @@ class Checker:
         """The members of a body that are right, and the keywords of those that are not."""
         members: list[program.Member] = []
         broken: set[str] = set()
-        seen: dict[str, Span] = {}
-        standing: dict[str, list[Span]] = {}
+        seen: dict[str, Placed] = {}
+        standing: dict[str, list[Local]] = {}
         said: set[str] = set()
         self._around.append(block.keyword)
         self._said_count = False
@@ -348,11 +357,11 @@ class Checker:
         self._said_count = False
         return tuple(members), frozenset(broken)
 
-    def _weigh(self, member: program.Member, block: language.Block, standing: dict[str, list[Span]]) -> None:
+    def _weigh(self, member: program.Member, block: language.Block, standing: dict[str, list[Local]]) -> None:
         """Report the members that a new one overwrites, or that it changes, of those standing by keyword."""
         keyword = member.entry.keyword
         if _overwrites(member, block):
-            related = (Related(self._findings.absolute(member.span), "this one counts"),)
+            related = (Related(self._findings.place(member.span), "this one counts"),)
             for span in standing.get(keyword, ()):
                 alike = self._text(span) == self._text(member.span)
                 fix = Fix(f"Remove this {keyword}", self._cut(span), "", certain=alike)
@@ -361,7 +370,7 @@ class Checker:
         elif isinstance(member, program.Block) and _is_one_structure(member.entry):
             before = standing.setdefault(keyword, [])
             if before:
-                related = (Related(self._findings.absolute(before[-1]), "it keeps what this one says"),)
+                related = (Related(self._findings.place(before[-1]), "it keeps what this one says"),)
                 detail = "what it does not name stays as it was; one block can say it all"
                 self._findings.add(
                     catalogue.CHANGES_THE_ONE_BEFORE, member.keyword.span, detail, fill=keyword, related=related
@@ -369,7 +378,7 @@ class Checker:
             before.append(member.span)
 
     def _member(
-        self, item: ast.Item, block: language.Block, seen: dict[str, Span], said: set[str]
+        self, item: ast.Item, block: language.Block, seen: dict[str, Placed], said: set[str]
     ) -> program.Member | None:
         """One member, if it is right. What belongs into another block is reported once for all that does: `said`."""
         match item:
@@ -389,7 +398,7 @@ class Checker:
                 said.add(place)
         return None
 
-    def _invalid(self, block: language.Block, span: Span, detail: str, fix: Fix | None = None) -> None:
+    def _invalid(self, block: language.Block, span: Local, detail: str, fix: Fix[Local] | None = None) -> None:
         if block is ANY_BODY:
             self._findings.add(catalogue.INVALID_AT_TOP, span, detail, fix=fix)
         else:
@@ -411,8 +420,8 @@ class Checker:
         good = True
         bare = len(wanted) == 1 and wanted[0].shape == "vector" and not any(isinstance(a, ast.Vector) for a in given)
         if bare and (len(given) > 2 or (len(given) == 2 and isinstance(given[0], ast.Number))):
-            span = given[0].span[0], given[-1].span[1]
-            text = self._data[span[0] + self._start : span[1] + self._start].decode("utf-8", "replace")
+            span = Local(given[0].span.start, given[-1].span.end)
+            text = self._bytes(span).decode("utf-8", "replace")
             plain = len(given) == 3 and "/*" not in text
             fix = Fix(f"Write < {text} >", span, f"< {text} >", certain=True) if plain else None
             self._findings.add(catalogue.EXPECTED_VECTOR, span, "a vector stands between < and >", fix=fix)
@@ -431,29 +440,29 @@ class Checker:
         if len(given) < len(wanted):
             missing = wanted[len(given)]
             detail = f"{entry.keyword} {takes(entry)}; the {missing.name} is missing"
-            end = given[-1].span[1] if given else item.keyword.span[1]
+            end = given[-1].span.end if given else item.keyword.span.end
             if given and missing.shape != "vector":
-                self._findings.add(catalogue.MISSING_MARK, (end, end), detail, fill=",")
+                self._findings.add(catalogue.MISSING_MARK, Local(end, end), detail, fill=",")
             else:
                 self._findings.add(_EXPECTED[missing.shape], item.keyword.span, detail)
             return None
         return program.Statement(entry, given, item.span) if good else None
 
-    def _decimal_comma(self, given: tuple[ast.Argument, ...]) -> Fix | None:
+    def _decimal_comma(self, given: tuple[ast.Argument, ...]) -> Fix[Local] | None:
         """What to write for `2,5`, if that is what stands there: maybe two numbers were meant."""
-        start, end = given[0].span[0], given[-1].span[1]
-        text = self._data[start + self._start : end + self._start]
+        span = Local(given[0].span.start, given[-1].span.end)
+        text = self._bytes(span)
         if not _DECIMAL_COMMA.fullmatch(text):
             return None
         new = text.replace(b",", b".").decode()
-        return Fix(f"Write {new}", (start, end), new)
+        return Fix(f"Write {new}", span, new)
 
-    def _flag_alone(self, item: ast.Statement) -> Fix | None:
+    def _flag_alone(self, item: ast.Statement) -> Fix[Local] | None:
         """The fix of a flag with an argument that says whether it is meant."""
-        start, end = item.keyword.span[1], item.arguments[-1].span[1]
-        said = self._data[start + self._start : end + self._start].strip().lower()
+        span = Local(item.keyword.span.end, item.arguments[-1].span.end)
+        said = self._bytes(span).strip().lower()
         if said in _YES:
-            return Fix(f"Write {item.keyword.text} alone", (start, end), "", certain=True)
+            return Fix(f"Write {item.keyword.text} alone", span, "", certain=True)
         return Fix(f"Leave {item.keyword.text} out", self._cut(item.span), "") if said in _NO else None
 
     def _argument(
@@ -493,31 +502,28 @@ class Checker:
             return self._short(item, entry, entry.row[len(rows[-1])])
         return program.Table(entry, None, 0, head, tuple(rows), item.keyword, item.span, broken=not good)
 
-    def _bulk_table(self, item: ast.Table, entry: language.Table, bulk: Span) -> program.Table:
+    def _bulk_table(self, item: ast.Table, entry: language.Table, bulk: Local) -> program.Table:
         head, row = _layout(entry.head), _layout(entry.row)
-        data = read_table(self._data, bulk[0] + self._start, bulk[1] + self._start, head, row)
+        data = read_table(self._data, *bulk.within(self._start), head, row)
         if data.stop is not None:
-            self._table_stop(entry, data.stop, bulk, item.span[1] - 1)
+            self._table_stop(entry, data.stop, bulk, item.span.end - 1)
         broken = data.stop is not None
         return program.Table(entry, data, self._start, (), (), item.keyword, item.span, broken)
 
-    def _table_stop(self, entry: language.Table, stop: Stop, bulk: Span, end: int) -> None:
-        fault = table_fault(entry, self._data, bulk[0] + self._start, bulk[1] + self._start)
+    def _table_stop(self, entry: language.Table, stop: Stop, bulk: Local, end: int) -> None:
+        fault = table_fault(entry, self._data, *bulk.within(self._start))
         if fault is not None and stop.expected not in ("digit", "space", "*/"):
-            start, stop_ = fault.span[0] - self._start, fault.span[1] - self._start
-            fix = fault.fix and fault.fix._replace(
-                span=(fault.fix.span[0] - self._start, fault.fix.span[1] - self._start)
-            )
+            fix = None if fault.fix is None else moved_fix(fault.fix, self._local)
             if not (fault.uncounted and self._said_count):
-                self._findings.add(catalogue.EXPECTED_NUMBER, (start, stop_), fault.detail, fix=fix)
+                self._findings.add(catalogue.EXPECTED_NUMBER, self._local(fault.span), fault.detail, fix=fix)
             self._said_count = self._said_count or fault.uncounted
             return
         start = min(stop.offset - self._start, end)
         found, fill = _STOPPED.get(stop.expected, (catalogue.MISSING_MARK, stop.expected))
         fix = self._digit_added(start) if stop.expected == "digit" else None
-        self._findings.add(found, (start, start + 1), layout_of(entry), fill=fill, fix=fix)
+        self._findings.add(found, Local(start, start + 1), layout_of(entry), fill=fill, fix=fix)
 
-    def _digit_added(self, place: int) -> Fix | None:
+    def _digit_added(self, place: int) -> Fix[Local] | None:
         """The fix for a numeral in a table that lacks a digit at a place of the item."""
         at = place + self._start
         before = _NUMERAL_END.search(self._data[max(at - _LONG_NUMERAL, 0) : at])
@@ -527,12 +533,12 @@ class Checker:
         text = before[0] + after[0]
         mended = numerals.mend(text)
         start = place - len(before[0])
-        return None if mended is None else Fix(f"Write {mended}", (start, start + len(text)), mended, certain=True)
+        return None if mended is None else Fix(f"Write {mended}", Local(start, start + len(text)), mended, certain=True)
 
     def _short(self, item: ast.Table, entry: language.Table, missing: language.Argument) -> program.Table:
         """A table whose last row is not whole."""
-        end = item.span[1]
-        self._findings.add(_EXPECTED[missing.shape], (end - 1, end), layout_of(entry))
+        end = item.span.end
+        self._findings.add(_EXPECTED[missing.shape], Local(end - 1, end), layout_of(entry))
         return program.Table(entry, None, 0, (), (), item.keyword, item.span, broken=True)
 
 
@@ -632,7 +638,6 @@ def check(
             yield program.Item(item.start, item.base, content)
     if not syntax.broken:
         checker.report_unused()
-    findings.base = 0
 
 
 _KEYWORDS = LANGUAGE.keywords

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 from m3d_language.table import Default
 
-from ..diagnostics import Findings, catalogue
+from ..diagnostics import Findings, ItemFindings, catalogue
 from ..diagnostics.catalogue import Entry
-from ..text.span import Span
+from ..text.span import Placed
 from . import program
 from .values import Record
 
@@ -81,7 +81,7 @@ def idle(record: Record, members: Iterable[program.Member]) -> frozenset[str]:
 class Weighed(NamedTuple):
     """A piece of text that one object has: what to say of it if it has no effect in any; None where it has one here."""
 
-    place: Span
+    place: Placed
     idle: tuple[Entry, str, str] | None  # the diagnostic, detail, what fills the headline
 
 
@@ -119,7 +119,7 @@ def _without_effect(record: Record, rules: tuple[Rule, ...]) -> Iterator[tuple[s
                     yield keyword, rule
 
 
-def report_unused_of_textures(block: program.Block, findings: Findings) -> None:
+def report_unused_of_textures(block: program.Block, findings: ItemFindings) -> None:
     """Report the members of a texture that its kind makes no use of. All textures have all statements (thesis 7.5.5.4);
     which ones count stands in the language table."""
     uses = block.entry.uses

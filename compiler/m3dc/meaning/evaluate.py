@@ -17,10 +17,10 @@ import numpy as np
 from m3d_language import table as language
 from m3d_language.table import LANGUAGE, Default
 
-from ..diagnostics import Findings, Fix, catalogue
+from ..diagnostics import Findings, Fix, ItemFindings, catalogue
 from ..diagnostics.catalogue import Entry
 from ..syntax import ast
-from ..text.span import Span
+from ..text.span import WHOLE, Local, Placed
 from . import program
 from .effects import idle
 from .finish import FINISH
@@ -64,7 +64,7 @@ class World(NamedTuple):
 _NOTHING = Made(None, None, (), ())
 
 
-def value_at_first(type_: str, span: Span) -> Value:
+def value_at_first(type_: str, span: Placed) -> Value:
     """What a variable declared at `span` holds until it is assigned to."""
     if type_ == "NUMBER":
         return 0.0
@@ -77,7 +77,8 @@ class Evaluator:
     """Holds the variables while the items of one scene are run in order. They may be given what they are at first."""
 
     def __init__(self, findings: Findings, variables: Mapping[str, Value] | None = None) -> None:
-        self._findings = findings
+        self._all = findings
+        self._findings = ItemFindings(findings, WHOLE)  # of the item being run
         self._variables: Ledger[Value] = Ledger()
         self._variables.update(variables or {})
         self._lights: list[Record] = []  # of the item being run
@@ -95,15 +96,15 @@ class Evaluator:
         size = Size()
         for item in items:
             content = item.content
-            self._findings.base = item.base
+            self._findings = ItemFindings(self._all, item.base)
             if size.excess is not None and isinstance(content, program.Block) and content.entry.keyword != "SCENE":
                 made.append(_NOTHING)  # there is no memory for more
                 continue
-            before = len(self._findings.found)
+            before = len(self._all.found)
             step = self._once(item.base, content, partial(self._item, content))
             made.append(step)
             if item.start in unfinished:
-                del self._findings.found[before:]
+                del self._all.found[before:]
             if size.excess is not None:
                 continue
             for thing in (*step.solids, *step.lights):
@@ -113,11 +114,10 @@ class Evaluator:
                 what, detail = size.excess
                 self._findings.add(catalogue.TOO_MANY, content.span, detail, fill=what)
                 made[-1] = _NOTHING
-        self._findings.base = 0
         scene = next((step.scene for step in made if step.scene is not None), None)
         fitting = made if size.excess is None else []
         return World(
-            scene or Record("SCENE", (0, 0)),
+            scene or Record("SCENE", Placed(0, 0)),
             tuple(solid for step in fitting for solid in step.solids),
             tuple(light for step in fitting for light in step.lights),
             tuple(made),
@@ -127,7 +127,7 @@ class Evaluator:
         """The outcome of `work`, not done again where nothing has changed since the run before (`Steps.do`)."""
         if self._memory is None:
             return work()
-        return self._memory.do(key, of, work, self._findings, self._variables)
+        return self._memory.do(key, of, work, self._all, self._variables)
 
     def _item(self, content: program.Content) -> Made:
         self._lights = []
@@ -136,14 +136,14 @@ class Evaluator:
                 return Made(self._assign(content), None, (), ())
             case program.Block():
                 record = self._whole(content)
-                check_reach(record, self._findings)
+                check_reach(record, self._all)
                 scene = record if record.block == "SCENE" else None
                 solids = (record,) if record.block == "SOLID" else ()
                 lights = (record,) if record.block == "LIGHT" else tuple(self._lights)
                 return Made(None, scene, solids, lights)
             case declarations:
                 for declaration in declarations:
-                    span = self._findings.absolute(declaration.name.span)
+                    span = self._findings.place(declaration.name.span)
                     self._variables[declaration.name.text] = value_at_first(declaration.type, span)
                 return Made(None, None, (), ())
 
@@ -157,23 +157,23 @@ class Evaluator:
         elif isinstance(item.value, ast.Vector):
             value = self._components(item.value)
         if isinstance(value, Record):
-            value = value.copy(self._findings.absolute(item.span))
+            value = value.copy(self._findings.place(item.span))
             if item.body is not None:
                 value.broken |= item.broken
                 self._body(value, item.body)
-                FINISH[value.block](value, self._findings, whole=False)
+                FINISH[value.block](value, self._all, whole=False)
         self._variables[name] = value
         return value
 
     def _whole(self, block: program.Block) -> Record:
         """A new record, up to its closing brace."""
         record = self._record(block)
-        FINISH[record.block](record, self._findings, whole=True)
+        FINISH[record.block](record, self._all, whole=True)
         return record
 
     def _record(self, block: program.Block) -> Record:
         """A new record: of default values, or a copy of a variable; then changed by the body."""
-        span = self._findings.absolute(block.span)
+        span = self._findings.place(block.span)
         source = None if block.source is None else self._variables[block.source.text]
         record = source.copy(span) if isinstance(source, Record) else Record(block.entry.keyword, span)
         record.broken |= block.broken
@@ -224,7 +224,7 @@ class Evaluator:
             else:
                 nested.broken |= block.broken
                 self._body(nested, block.body)
-                FINISH[keyword](nested, self._findings, whole=True)
+                FINISH[keyword](nested, self._all, whole=True)
             if keyword == "SKY":
                 self._lights.append(nested.member("SUN"))
 
@@ -245,7 +245,7 @@ class Evaluator:
             assert isinstance(member, program.Statement)
             if member.entry.keyword == "IDENTITY":
                 if depth:
-                    fix = Fix("Remove what stands before it", (members[0].span[0], member.span[0]), "")
+                    fix = Fix("Remove what stands before it", Local(members[0].span.start, member.span.start), "")
                     detail = "put it first, or leave out what stands before it"
                     self._findings.add(catalogue.IDENTITY_DISCARDS, member.span, detail, fix=fix)
                 transform, depth = IDENTITY, 0
@@ -275,7 +275,7 @@ class Evaluator:
         values = self._values(item)
         if values is None:
             return
-        place = self._findings.absolute(item.span)
+        place = self._findings.place(item.span)
         record.places[entry.keyword] = place
         meaning = MEANING.get((record.block, entry.keyword))
         if entry.is_flag:
@@ -386,18 +386,18 @@ class Evaluator:
         if keyword == "COLORS" and "COLORS" in record.tables:
             before = record.tables["COLORS"]
             rows = np.vstack([before.rows, value.rows])
-            earlier = before.offsets.astype(np.int64) + (before.span[0] - value.span[0])
+            earlier = before.offsets.astype(np.int64) + (before.span.start - value.span.start)
             value = TableValue((), rows, np.concatenate([earlier, value.offsets]), value.span)
         record.tables[keyword] = value
         record.mesh = None
 
     def _bulk(self, item: program.Table, data: program.TableData) -> TableValue | None:
         rows = np.asarray(data.rows).reshape(-1, data.width)
-        offsets = np.asarray(data.offsets) - np.uint32(item.origin + item.span[0])
+        offsets = np.asarray(data.offsets) - np.uint32(item.origin + item.span.start)
         head = self._head(data.head, [item.span] * len(data.head))
         if head is None:
             return None
-        return TableValue(head, rows, offsets, self._findings.absolute(item.span))
+        return TableValue(head, rows, offsets, self._findings.place(item.span))
 
     def _written_out(self, item: program.Table) -> TableValue | None:
         """A table with variables in it."""
@@ -409,10 +409,10 @@ class Evaluator:
             for row in item.rows
         ]
         width = sum(3 if a.shape == "vector" else 1 for a in item.entry.row)
-        offsets = np.array([row[0].span[0] - item.span[0] for row in item.rows], np.uint32)
-        return TableValue(head, np.array(rows, float).reshape(-1, width), offsets, self._findings.absolute(item.span))
+        offsets = np.array([row[0].span.start - item.span.start for row in item.rows], np.uint32)
+        return TableValue(head, np.array(rows, float).reshape(-1, width), offsets, self._findings.place(item.span))
 
-    def _head(self, values: Sequence[float | Vector], spans: list[Span]) -> tuple[int, ...] | None:
+    def _head(self, values: Sequence[float | Vector], spans: list[Local]) -> tuple[int, ...] | None:
         head: list[int] = []
         for value, span in zip(values, spans, strict=True):
             assert not isinstance(value, tuple)
@@ -457,10 +457,10 @@ class Evaluator:
         return value
 
     def _row_error(self, entry: Entry, value: TableValue, row: int, detail: str, *, fill: str = "") -> None:
-        self._findings.add_at(entry, value.place(row), detail, fill=fill)
+        self._all.add_at(entry, value.place(row), detail, fill=fill)
 
 
-def _turned(argument: ast.Argument, value: float | Vector, interval: language.Interval) -> Fix | None:
+def _turned(argument: ast.Argument, value: float | Vector, interval: language.Interval) -> Fix[Local] | None:
     """The fix that writes an angle as the one that whole turns away is in range, where the range is a whole turn: 270
     degrees are -90. There is no other such angle, so that it is certain."""
     if isinstance(value, tuple) or interval.high - interval.low != TURN or not math.isfinite(value):
@@ -479,7 +479,7 @@ def _of_bytes(shown: str, components: Sequence[float]) -> tuple[str, Vector]:
     return detail, (red, green, blue)
 
 
-def _written(argument: ast.Argument, value: float | Vector) -> Fix | None:
+def _written(argument: ast.Argument, value: float | Vector) -> Fix[Local] | None:
     """The fix that writes what takes the place of a number or vector; None of one that is, or has, a variable."""
     match argument:
         case ast.Number() if isinstance(value, float):

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Findings, catalogue
+from ..diagnostics import Findings, ItemFindings, catalogue
+from ..text.span import Base
 from . import program
 from .assignments import Usage, report_unused_values, usage
 from .effects import ENDLESS, NEEDS, Weighed, report_idle, report_unused_of_textures, weighed
@@ -70,11 +71,10 @@ def lint(world: World, items: Iterable[program.Item], findings: Findings, steps:
     def once(of: object, work: Callable[[], _T]) -> _T:
         return work() if steps is None else steps.do(id(of), of, work, findings, nothing)
 
-    facts: list[tuple[int, _Facts]] = []
+    facts: list[tuple[Base, _Facts]] = []
     for item in items:
-        findings.base = item.base
-        facts.append((item.base, once(item.content, partial(_lint_item, item.content, findings))))
-    findings.base = 0
+        work = partial(_lint_item, item.content, ItemFindings(findings, item.base))
+        facts.append((item.base, once(item.content, work)))
     report_unused_values(((base, each.usage) for base, each in facts), findings)
     report_radians(((base, each.angles) for base, each in facts if each.angles), findings)
     shapes: list[_Shape] = []
@@ -88,7 +88,7 @@ def lint(world: World, items: Iterable[program.Item], findings: Findings, steps:
         look(world, shapes, findings)
 
 
-def _lint_item(content: program.Content, findings: Findings) -> _Facts:
+def _lint_item(content: program.Content, findings: ItemFindings) -> _Facts:
     match content:
         case program.Block():
             body: tuple[program.Member, ...] = (content,)
@@ -386,7 +386,7 @@ def _reaches_into(shape: _Shape, ball: _Shape) -> bool:
     return apart < ball.radius + shape.radius and not (part.block == "SPHERE" and apart + ball.radius <= shape.radius)
 
 
-ITEM_LINTS: tuple[Callable[[program.Block, Findings], None], ...] = (report_unused_of_textures,)
+ITEM_LINTS: tuple[Callable[[program.Block, ItemFindings], None], ...] = (report_unused_of_textures,)
 SCENE_LINTS: tuple[Callable[[World, list[_Shape], Findings], None], ...] = (
     _no_light,
     _light_reaches_nothing,

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from ..diagnostics import Diagnostic, Findings
+from ..diagnostics import Finding, Findings
+from ..text.span import Placed
 
 T = TypeVar("T")
 V = TypeVar("V")
@@ -101,7 +102,7 @@ class _Step(NamedTuple):
     notes: Notes[Any]
     within: dict[Hashable, _Step]
     result: Any
-    found: tuple[Diagnostic, ...]
+    found: tuple[Finding[Placed], ...]
 
 
 class Steps:

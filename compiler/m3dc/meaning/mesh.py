@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..diagnostics import Findings, catalogue
+from ..text.span import Placed
 from .transform import unit
 from .values import Mesh, Record, TableValue
 
@@ -16,7 +17,7 @@ PIECE = 1 << 15
 COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
 
 _NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
-_BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32), 0)
+_BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32), Placed(0, 0))
 
 
 Columns: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
@@ -89,9 +90,9 @@ def _counted(table: TableValue, count: int, keyword: str, findings: Findings) ->
             fill=keyword,
         )
     elif rows < count:
-        end = table.span[1]
+        end = table.span.end
         findings.add_at(
-            catalogue.FEWER_ROWS_THAN_SPECIFIED, (end - 1, end), f"{count} specified, {rows} found", fill=keyword
+            catalogue.FEWER_ROWS_THAN_SPECIFIED, Placed(end - 1, end), f"{count} specified, {rows} found", fill=keyword
         )
     return rows == count
 
@@ -124,7 +125,7 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
             return None
         normals = unit(normals)
         normal_rows = np.arange(len(normals), dtype=np.int32).reshape(-1, 3)
-    return Mesh(positions, corners, normals, normal_rows, facets.offsets, facets.span[0])
+    return Mesh(positions, corners, normals, normal_rows, facets.offsets, facets.span)
 
 
 def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
@@ -168,7 +169,7 @@ def _grid(table: TableValue, rows: int, columns: int, findings: Findings) -> Mes
     facets = np.stack([np.stack([na, nb, nc], -1), np.stack([na, nc, nd], -1)], axis=2).reshape(-1, 3)
     normals = unit(np.cross(_along(grid, 0), _along(grid, 1)) * upwards).reshape(-1, 3)
     offsets = np.repeat(table.offsets[na.ravel()], 2)
-    return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets, table.span[0])
+    return Mesh(grid.reshape(-1, 3), facets, normals, facets, offsets, table.span)
 
 
 def _folded(areas: NDArray[np.float64]) -> tuple[NDArray[np.bool_], float]:

@@ -11,13 +11,13 @@ from m3d_language import TableData
 from m3d_language import table as language
 
 from ..syntax.ast import Argument, Keyword, Name
-from ..text.span import Span
+from ..text.span import Base, Local
 
 
 class Statement(NamedTuple):
     entry: language.Statement
     arguments: tuple[Argument, ...]
-    span: Span
+    span: Local
 
 
 class Table(NamedTuple):
@@ -32,7 +32,7 @@ class Table(NamedTuple):
     head: tuple[Argument, ...]
     rows: tuple[tuple[Argument, ...], ...]
     keyword: Keyword
-    span: Span
+    span: Local
     broken: bool = False
 
 
@@ -47,7 +47,7 @@ class Block(NamedTuple):
     body: tuple["Member", ...]
     broken: frozenset[str]
     keyword: Keyword
-    span: Span
+    span: Local
 
 
 Member: TypeAlias = Statement | Table | Block
@@ -71,7 +71,7 @@ class Assignment(NamedTuple):
     value: Argument | None
     body: tuple[Member, ...] | None
     broken: frozenset[str]
-    span: Span
+    span: Local
 
 
 Content: TypeAlias = tuple[Declaration, ...] | Assignment | Block
@@ -100,9 +100,9 @@ def blocks(body: tuple[Member, ...]) -> Iterator[Block]:
 
 
 class Item(NamedTuple):
-    """One top-level item and the byte it starts at; the spans below it are relative to that, and elsewhere to `base`
-    (see places.py)."""
+    """One top-level item, the byte it starts at, and its base among all items (see span.py). What is below it has
+    places in it."""
 
     start: int
-    base: int
+    base: Base
     content: Content

@@ -58,7 +58,7 @@ def _size(transform: Transform) -> float:
 
 
 def _within(part: Record, record: Record) -> bool:
-    return record.span[0] <= part.span[0] and part.span[1] <= record.span[1]
+    return record.span.start <= part.span.start and part.span.end <= record.span.end
 
 
 def _reach(part: Record, transform: Transform) -> float:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ..diagnostics import Findings, catalogue
 from ..syntax import ast
-from ..text.span import Span
+from ..text.span import Base, Local
 from . import program
 from .values import TableValue, spelled
 
@@ -28,7 +28,7 @@ class Angle(NamedTuple):
 
     keyword: str
     value: float
-    span: Span
+    span: Local
 
 
 def angles(members: Iterable[program.Member]) -> Iterator[Angle]:
@@ -48,7 +48,7 @@ def angles(members: Iterable[program.Member]) -> Iterator[Angle]:
                 pass
 
 
-def report_radians(items: Iterable[tuple[int, tuple[Angle, ...]]], findings: Findings) -> None:
+def report_radians(items: Iterable[tuple[Base, tuple[Angle, ...]]], findings: Findings) -> None:
     """Report the angles of a scene, given by item with its base, that look like radians: a common part of a turn as one
     rounds it; or any rotation of a scene in which none is greater than a full turn in radians."""
     known = [(base, angle) for base, found in items for angle in found]
@@ -57,11 +57,9 @@ def report_radians(items: Iterable[tuple[int, tuple[Angle, ...]]], findings: Fin
         value = abs(angle.value)
         small = largest <= 2 * math.pi and value >= _LEAST_TURN and angle.keyword in _TURNS
         if small or _is_part(value):
-            findings.base = base
             degrees = round(math.degrees(angle.value), 1)
             detail = f"{spelled(angle.value)} is in degrees; as radians it would be {degrees:g} degrees"
-            findings.add(catalogue.ANGLE_IN_RADIANS, angle.span, detail)
-    findings.base = 0
+            findings.add_at(catalogue.ANGLE_IN_RADIANS, angle.span.at(base), detail)
 
 
 def _is_part(value: float) -> bool:

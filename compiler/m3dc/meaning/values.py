@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from m3d_language.table import LANGUAGE, Default
 
-from ..text.span import Span
+from ..text.span import Placed
 from .transform import IDENTITY, Transform
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -30,19 +30,20 @@ class TableValue(NamedTuple):
     head: tuple[int, ...]
     rows: NDArray[np.float64]
     offsets: NDArray[np.uint32 | np.int64]
-    span: Span
+    span: Placed
 
-    def place(self, row: int) -> Span:
+    def place(self, row: int) -> Placed:
         """Where a row begins."""
-        at = self.span[0] + int(self.offsets[row])
-        return at, at + 1
+        at = self.span.start + int(self.offsets[row])
+        return Placed(at, at + 1)
 
 
 class Mesh(NamedTuple):
     """Triangular facets between vertices, in the primitive's own coordinates.
 
     `facets` (m, 3) are rows of `vertices` (n, 3); `normals` (k, 3) unit vectors at the corners that `normal_rows`
-    (m, 3) name, both empty for flat facets; `offsets` (m) is how far after `origin` each facet is written.
+    (m, 3) name, both empty for flat facets; `offsets` (m) is how far after the beginning of the `table` each
+    facet is written.
     """
 
     vertices: NDArray[np.float64]
@@ -50,12 +51,12 @@ class Mesh(NamedTuple):
     normals: NDArray[np.float64]
     normal_rows: NDArray[np.int32]
     offsets: NDArray[np.uint32 | np.int64]
-    origin: int
+    table: Placed
 
-    def place(self, facet: int) -> Span:
+    def place(self, facet: int) -> Placed:
         """Where a facet is written."""
-        at = self.origin + int(self.offsets[facet])
-        return at, at + 1
+        at = self.table.start + int(self.offsets[facet])
+        return Placed(at, at + 1)
 
 
 class Parts(Sequence["Record"]):
@@ -93,7 +94,7 @@ class Parts(Sequence["Record"]):
 
 
 class Record:
-    """The value of a block: its members so far. All spans are of the whole text.
+    """The value of a block: its members so far, and where it stands, as places among all items.
 
     `values` are the statements' arguments by keyword (a flag is a bool), `places` where each was last written;
     `nested` are the blocks there is one of (SURFACE, VIEW, ...), `parts` those there are many of (primitives,
@@ -116,11 +117,11 @@ class Record:
         "values",
     )
 
-    def __init__(self, block: str, span: Span) -> None:
+    def __init__(self, block: str, span: Placed) -> None:
         self.block = block
         self.span = span
         self.values: dict[str, Default] = dict(_DEFAULTS[block])
-        self.places: dict[str, Span] = {}
+        self.places: dict[str, Placed] = {}
         self.nested: dict[str, Record] = {}
         self.parts: Sequence[Record] = ()
         self.tables: dict[str, TableValue] = {}
@@ -129,7 +130,7 @@ class Record:
         self.idle: frozenset[str] = frozenset()
         self.mesh: Mesh | None = None
 
-    def copy(self, span: Span) -> Record:
+    def copy(self, span: Placed) -> Record:
         """An independent copy, as an assignment makes: a later change to the original does not reach it."""
         new = Record.__new__(Record)
         new.block = self.block
@@ -162,7 +163,7 @@ class Record:
         x, y, z = value
         return float(x), float(y), float(z)
 
-    def place(self, keyword: str) -> Span:
+    def place(self, keyword: str) -> Placed:
         """Where a member was written, or the whole record where it was not."""
         return self.places.get(keyword, self.span)
 

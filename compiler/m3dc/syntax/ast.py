@@ -1,12 +1,12 @@
 """The abstract syntax tree: what is written, before anything is known of what it means.
 
-The tree knows no single keyword: a `SPHERE` is a Block whose keyword is "SPHERE". Spans are ranges of bytes relative
-to the top-level item that a node stands in, so that an item that an edit only moved can be used again as it is.
+The tree knows no single keyword: a `SPHERE` is a Block whose keyword is "SPHERE". Its places count from the
+beginning of the top-level item that a node stands in, so that an item that an edit only moved can be used as it is.
 """
 
 from typing import NamedTuple, TypeAlias
 
-from ..text.span import Span
+from ..text.span import Base, Local, Span
 
 # Deeper than any scene needs (SOLID > SURFACE > TEXTURE > CHECKER > TRANSFORM), and less than Python's stack allows.
 DEEPEST = 40
@@ -16,17 +16,17 @@ class Number(NamedTuple):
     """A numeral; its value is NaN where it could not be read as one."""
 
     value: float
-    span: Span
+    span: Local
 
 
 class Name(NamedTuple):
     text: str
-    span: Span
+    span: Local
 
 
 class Vector(NamedTuple):
     components: tuple[Number | Name, ...]
-    span: Span
+    span: Local
 
 
 Argument: TypeAlias = Number | Name | Vector
@@ -34,7 +34,7 @@ Argument: TypeAlias = Number | Name | Vector
 
 class Keyword(NamedTuple):
     text: str
-    span: Span
+    span: Local
 
 
 class Statement(NamedTuple):
@@ -42,23 +42,23 @@ class Statement(NamedTuple):
 
     keyword: Keyword
     arguments: tuple[Argument, ...]
-    span: Span
+    span: Local
 
 
 class Table(NamedTuple):
     """`KEYWORD { ... }` with numbers in it: `bulk` is where they stand when there is nothing else; or `entries`."""
 
     keyword: Keyword
-    bulk: Span | None
+    bulk: Local | None
     entries: tuple[Argument, ...]
-    span: Span
+    span: Local
 
 
 class Body(NamedTuple):
     """`{ ... }`"""
 
     items: tuple["Item", ...]
-    span: Span
+    span: Local
 
 
 class Block(NamedTuple):
@@ -67,7 +67,7 @@ class Block(NamedTuple):
     keyword: Keyword
     name: Name | None
     body: Body | None
-    span: Span
+    span: Local
 
 
 class Declaration(NamedTuple):
@@ -75,7 +75,7 @@ class Declaration(NamedTuple):
 
     type: Keyword | Name
     names: tuple[Name, ...]
-    span: Span
+    span: Local
 
 
 class Variables(NamedTuple):
@@ -83,7 +83,7 @@ class Variables(NamedTuple):
 
     keyword: Keyword
     declarations: tuple[Declaration, ...]
-    span: Span
+    span: Local
 
 
 class Assignment(NamedTuple):
@@ -92,19 +92,19 @@ class Assignment(NamedTuple):
     target: Name
     value: Argument | None
     body: Body | None
-    span: Span
+    span: Local
 
 
 Item: TypeAlias = Statement | Table | Block | Variables | Assignment
 
 
 class TopLevel(NamedTuple):
-    """One item of the file, and the byte it starts at; its places count from `base` (see places.py)."""
+    """One item of a file, the byte it starts at, and its base among all items (see span.py)."""
 
     start: int
-    base: int
+    base: Base
     item: Item
 
-    def place(self, span: Span) -> Span:
-        """A span of the item as one of the whole text."""
-        return span[0] + self.start, span[1] + self.start
+    def place(self, span: Local) -> Span:
+        """Where a part of the item stands in the text of its file."""
+        return span.within(self.start)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from typing import NamedTuple
 
-from ..diagnostics import Findings, Fix, catalogue
-from ..text.span import Span
-from . import ast
+from ..diagnostics import Fix, catalogue
+from ..diagnostics.catalogue import Entry
+from ..diagnostics.findings import At
 
 _NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
 _LEADING_POINT = re.compile(rb"^([+-]?)\.")
@@ -17,21 +18,30 @@ _C_SUFFIX = re.compile(rb"([+-]?[0-9]+\.[0-9]+)[fF]")
 _UNIT = re.compile(rb"[+-]?[0-9]+(?:\.[0-9]+)?([A-Za-z]+)")
 
 
-def read(text: bytes, span: Span, findings: Findings) -> ast.Number:
-    """The number that a token is; NaN, and a finding, where it is none."""
+class Fault(NamedTuple):
+    """Why a token is no number: from its byte `start` on. `mended` is what it certainly stands for, if there is such a
+    numeral."""
+
+    entry: Entry
+    start: int
+    detail: str
+    mended: str | None = None
+
+    def fix(self, span: At) -> Fix[At] | None:
+        """What mends the token at `span`."""
+        return None if self.mended is None else Fix(f"Write {self.mended}", span, self.mended, certain=True)
+
+
+def read(text: bytes) -> tuple[float, Fault | None]:
+    """The number that a token is; NaN, and what is wrong, where it is none."""
     match = _NUMBER.match(text)
     end = match.end() if match else 0
-    start, stop = span
     if end < len(text):
-        mended = mend(text)
-        fix = Fix(f"Write {mended}", span, mended, certain=True) if mended else None
-        findings.add(catalogue.EXPECTED_DIGIT, (start + end, stop), _fault(text, end), fix=fix)
-        return ast.Number(math.nan, span)
+        return math.nan, Fault(catalogue.EXPECTED_DIGIT, end, _fault(text, end), mend(text))
     value = float(text)
     if value in (float("inf"), float("-inf")):
-        findings.add(catalogue.NUMBER_TOO_LARGE, span, "the largest number is about 1.8e308")
-        value = math.nan
-    return ast.Number(value, span)
+        return math.nan, Fault(catalogue.NUMBER_TOO_LARGE, 0, "the largest number is about 1.8e308")
+    return value, None
 
 
 def mend(text: bytes) -> str | None:

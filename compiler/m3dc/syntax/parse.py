@@ -17,12 +17,12 @@ import m3d_language
 from m3d_language.comments import outermost
 from m3d_language.table import LANGUAGE
 
-from ..diagnostics import Diagnostic, Findings, Related, catalogue
+from ..diagnostics import Finding, Findings, ItemFindings, Related, TextFindings, catalogue
 from ..text import long_tables
 from ..text.difference import Difference
-from ..text.places import REACH, Places
+from ..text.places import Places
 from ..text.source import Source
-from ..text.span import Span
+from ..text.span import Base, FileId, Local, Placed, Span
 from . import ast, numerals
 
 if TYPE_CHECKING:
@@ -46,7 +46,8 @@ _LOOSE = ("identifier", "number")
 
 
 class Syntax(NamedTuple):
-    """A parsed scene: its concrete tree, and the top-level items as abstract ones, made as they are asked for.
+    """A parsed scene: its concrete tree, and the top-level items as abstract ones, made as they are asked for; `places`
+    knows where those that have been made begin.
 
     `faulty` are the starts of the nodes that stand in a stretch with a syntax error, `doubtful` those of the items that
     may be incomplete, and `unfinished` of those too of which a block is not closed; `names` may be declared or assigned
@@ -55,6 +56,7 @@ class Syntax(NamedTuple):
 
     tree: Tree
     items: Iterator[ast.TopLevel]
+    places: Places
     faulty: frozenset[int] = frozenset()
     doubtful: frozenset[int] = frozenset()
     unfinished: frozenset[int] = frozenset()
@@ -69,39 +71,52 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
     outside = long_tables.outside(data)
     head = _hopeless_head(data, outside)
     if head is not None:
-        return parse(Source(head, source.name), findings)
+        return parse(Source(head, source.name, source.file), findings)
+    form = TextFindings()
+    syntax = _parse(source, outside, form, findings, before)
+    findings.add_text(form)
+    return syntax
+
+
+def _parse(
+    source: Source, outside: list[Span], form: TextFindings, findings: Findings, before: Parsed | None
+) -> Syntax:
+    """As `parse`. What is wrong in the form of the text as a whole is found now; what is in its items, one by one."""
+    data = source.data
+    places = Places() if before is None else Places(before.places)
     tree = _tree(data, outside) if before is None else before.tree(data, outside)
     control = _find_control(data, outside)
     if control:
         found = f"it holds the byte {data[control[0]]:#04x}"
-        findings.add(
+        form.add(
             catalogue.NOT_A_TEXT_FILE,
             (control[0], control[0] + 1),
             f"{found}; a scene is plain text, in UTF-8 or ASCII",
         )
         if len(control) > MOST_CONTROL or data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # the marks of UTF-16
-            return Syntax(tree, iter(()))
+            return Syntax(tree, iter(()), places)
     unclosed = _unclosed_comment(data, outside)
     if unclosed is not None:
-        _report_unclosed_comment(data, unclosed, findings)
+        _report_unclosed_comment(data, unclosed, form)
     elif all(node.type == "comment" for node in tree.root_node.children):
-        findings.add(catalogue.EMPTY_FILE, (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
+        form.add(catalogue.EMPTY_FILE, (0, 0), "a scene needs at least one SOLID, LIGHT or SCENE")
     if not tree.root_node.has_error:
         whole = _Items(tree.root_node.children, ())
-        return Syntax(tree, _items(whole, data, findings, before), broken=bool(findings.found))
+        items = _items(whole, source, places, findings, before)
+        return Syntax(tree, items, places, broken=bool(form.found))
 
     from .recovery import recover
 
     end = len(data) if unclosed is None else unclosed
-    recovered = recover(data, tree.root_node, end, findings, MOST_FAULTS)
+    recovered = recover(data, tree.root_node, end, form, MOST_FAULTS)
     if recovered is None:
-        place = findings.found[-1].span
-        findings.add(catalogue.TOO_MANY_ERRORS, place, f"{MOST_FAULTS} syntax errors up to here")
-        return Syntax(tree, iter(()))
-    if not findings.found:
+        place = form.found[-1].span
+        form.add(catalogue.TOO_MANY_ERRORS, place, f"{MOST_FAULTS} syntax errors up to here")
+        return Syntax(tree, iter(()), places)
+    if not form.found:
         # Nothing that is broken is taken for a scene in silence.
         place = _first_error(tree.root_node)
-        findings.add(catalogue.INVALID_AT_TOP, place, "this can not be read here")
+        form.add(catalogue.INVALID_AT_TOP, place, "this can not be read here")
     apart = [
         node
         for node in tree.root_node.children
@@ -113,9 +128,9 @@ def parse(source: Source, findings: Findings, before: Parsed | None = None) -> S
     faulty = {node.start_byte for node in tree.root_node.children} - sound
     doubtful = {read.start for read in recovered.items if read.doubtful}
     unfinished = {read.start for read in recovered.items if read.doubtful or read.unclosed}
-    items = _items(_Items(apart, recovered.items), data, findings, before)
+    items = _items(_Items(apart, recovered.items), source, places, findings, before)
     return Syntax(
-        tree, items, frozenset(faulty | doubtful), frozenset(doubtful), frozenset(unfinished), recovered.names
+        tree, items, places, frozenset(faulty | doubtful), frozenset(doubtful), frozenset(unfinished), recovered.names
     )
 
 
@@ -150,35 +165,37 @@ def _loose_tokens(error: Node) -> int:
     return sum(not node.is_named or node.is_error or node.type in _LOOSE for node in error.children)
 
 
-def _items(whole: _Items, data: bytes, findings: Findings, before: Parsed | None) -> Iterator[ast.TopLevel]:
-    """The top-level items that can be read, each with spans relative to its start."""
+def _items(
+    whole: _Items, source: Source, places: Places, findings: Findings, before: Parsed | None
+) -> Iterator[ast.TopLevel]:
+    """The top-level items that can be read, as they are asked for."""
+    data = source.data
     if before is not None:
-        before.begin(data)
+        before.begin(data, places)
     for each in whole.in_order():
         if isinstance(each, Node) and each.type == "comment":
             continue
         start = each.start_byte if isinstance(each, Node) else each.start
-        findings.base = start
         if len(findings.found) >= MOST_FOUND:
             found = f"{len(findings.found)} problems up to here; the rest of the text is not looked at"
-            findings.add(catalogue.TOO_MANY_ERRORS, (0, 1), found)
+            findings.add_at(catalogue.TOO_MANY_ERRORS, Local(0, 1).at(places.new(source.file, start)), found)
             return
         if not isinstance(each, Node):
-            base, item = start if before is None else before.new_base(start), each.item
+            base, item = places.new(source.file, start), each.item
         elif before is None:
-            base, item = start, _Builder(data, findings, start).item(each, 0)
+            base = places.new(source.file, start)
+            item = _Builder(data, ItemFindings(findings, base), start).item(each, 0)
         else:
-            base, item = before.item(each, findings)
-        findings.base = 0
+            base, item = before.item(each, source.file, findings)
         if item is not None:
             yield ast.TopLevel(start, base, item)
 
 
-def _report_unclosed_comment(data: bytes, start: int, findings: Findings) -> None:
+def _report_unclosed_comment(data: bytes, start: int, findings: TextFindings) -> None:
     """A comment that is never closed, and the one within it that took the end it has, if it has one."""
     marks = list(_COMMENT_MARK.finditer(data, start + 2))
     inner = next((mark for mark in marks if mark[0] == b"/*"), None)
-    related: tuple[Related, ...] = ()
+    related: tuple[Related[Span], ...] = ()
     detail = "this comment is never closed with */"
     if inner is not None and any(mark[0] == b"*/" for mark in marks):
         detail += "; comments nest: each /* needs its own"
@@ -221,7 +238,6 @@ class Parsed:
         self._lost: dict[bytes, list[_Read]] = {}  # by their text, the items that stood where the text has changed
         self._before: dict[int, _Read] = {}
         self._now: dict[int, _Read] = {}
-        self._count = 0
 
     def tree(self, data: bytes, outside: list[Span]) -> Tree:
         """The tree of a text, of the tree of the last one. The same tree as from the start: where the text is broken,
@@ -236,8 +252,8 @@ class Parsed:
         self._tree, self._tree_data, self._whole = tree, data, whole
         return tree.copy()
 
-    def begin(self, data: bytes) -> None:
-        """Start to go through the items of a text."""
+    def begin(self, data: bytes, places: Places) -> None:
+        """Start to go through the items of a text, whose `places` are to be found."""
         difference = self._difference = Difference.between(self._items_data, data)
         self._lost = {}
         for start, read in self._now.items():
@@ -245,31 +261,23 @@ class Parsed:
                 self._lost.setdefault(self._items_data[start : start + read.length], []).append(read)
         self._items_data = data
         self._before, self._now = self._now, {}
-        self.places = Places()
+        self.places = places
 
-    def item(self, node: Node, findings: Findings) -> tuple[int, ast.Item | None]:
-        """The item of a node, and the base of its places: those of the same text before, if there is one."""
+    def item(self, node: Node, file: FileId, findings: Findings) -> tuple[Base, ast.Item | None]:
+        """The item of a node, and its base: those of the same text before, if there is one."""
         start = node.start_byte
         read = None if node.has_error else self._same(start, node.end_byte)
         if read is not None:
             findings.found.extend(read.found)
+            self.places.put(read.base, file, start)
         else:
-            self._count += 1
-            findings.base = self._count * REACH
+            base = self.places.new(file, start)
             before = len(findings.found)
-            item = _Builder(self._items_data, findings, start).item(node, 0)
-            read = _Read(findings.base, node.end_byte - start, item, tuple(findings.found[before:]))
+            item = _Builder(self._items_data, ItemFindings(findings, base), start).item(node, 0)
+            read = _Read(base, node.end_byte - start, item, tuple(findings.found[before:]))
         if not node.has_error:
             self._now[start] = read
-        self.places.put(read.base, start)
         return read.base, read.item
-
-    def new_base(self, start: int) -> int:
-        """The base of the places of an item that is not kept, which begins at a byte."""
-        self._count += 1
-        base = self._count * REACH
-        self.places.put(base, start)
-        return base
 
     def _same(self, start: int, end: int) -> _Read | None:
         """What was read of the same stretch of text, or else of one with the same text."""
@@ -284,12 +292,12 @@ class Parsed:
 
 
 class _Read(NamedTuple):
-    """The item that a stretch of text is read as, the base of its places, and what was wrong."""
+    """The item that a stretch of text is read as, its base, and what was wrong."""
 
-    base: int
+    base: Base
     length: int
     item: ast.Item | None
-    found: tuple[Diagnostic, ...]
+    found: tuple[Finding[Placed], ...]
 
 
 def _edit(old: bytes, new: bytes) -> tuple[int, int, int, Point, Point, Point]:
@@ -315,15 +323,15 @@ def _unclosed_comment(data: bytes, outside: list[Span]) -> int | None:
 
 
 class _Builder:
-    """Makes abstract nodes of concrete ones, with spans relative to `base`."""
+    """Makes abstract nodes of the concrete ones of an item that begins at `start`."""
 
-    def __init__(self, data: bytes, findings: Findings, base: int) -> None:
+    def __init__(self, data: bytes, findings: ItemFindings, start: int) -> None:
         self._data = data
         self._findings = findings
-        self._base = base
+        self._start = start
 
-    def _span(self, node: Node) -> Span:
-        return node.start_byte - self._base, node.end_byte - self._base
+    def _span(self, node: Node) -> Local:
+        return Local(node.start_byte - self._start, node.end_byte - self._start)
 
     def _text(self, node: Node) -> str:
         return self._data[node.start_byte : node.end_byte].decode("utf-8", "replace")
@@ -425,4 +433,9 @@ class _Builder:
                 return None
 
     def _number(self, node: Node) -> ast.Number:
-        return numerals.read(self._data[node.start_byte : node.end_byte], self._span(node), self._findings)
+        span = self._span(node)
+        value, fault = numerals.read(self._data[node.start_byte : node.end_byte])
+        if fault is not None:
+            place = Local(span.start + fault.start, span.end)
+            self._findings.add(fault.entry, place, fault.detail, fix=fault.fix(span))
+        return ast.Number(value, span)

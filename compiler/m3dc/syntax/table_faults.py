@@ -22,7 +22,7 @@ class TableFault(NamedTuple):
 
     span: Span
     detail: str
-    fix: Fix | None = None
+    fix: Fix[Span] | None = None
     uncounted: bool = False
 
 

@@ -1,43 +1,48 @@
-"""Places in the text that stay true while the text changes around them.
-
-While a scene is compiled again and again, the spans within a top-level item count from a base of the item's own, which
-it keeps as long as it stays as it is. Only at the end are they made places of the text as it is.
-"""
+"""Where the items of a text begin: what makes a place within an item (`Placed`) one of a file (`Absolute`)."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .span import Span
-
-# No text is as long. Base number n is n times this; below it, a place is one of the text itself.
-REACH = 1 << 34
+from .span import MAIN, REACH, WHOLE, Absolute, Base, FileId, Placed
 
 
 class Places:
-    """Where the items with bases of their own begin."""
+    """Where each item of one version of a scene begins, by its base.
 
-    def __init__(self) -> None:
-        self._starts: dict[int, int] = {}
+    An item keeps its base from one version to the next (`put`) for as long as its text stays the same; one that is new
+    gets a base that no item had before (`new`), in any version.
+    """
 
-    def put(self, base: int, start: int) -> None:
-        """The item whose places count from `base` begins at byte `start`."""
-        self._starts[base // REACH] = start
+    def __init__(self, before: Places | None = None) -> None:
+        self._count = 0 if before is None else before._count
+        self._begins: dict[int, tuple[FileId, int]] = {WHOLE: (MAIN, 0)}
 
-    def real(self, place: int) -> int:
-        """A place as a byte of the text."""
-        return place if place < REACH else self._starts[place // REACH] + place % REACH
+    def new(self, file: FileId, start: int) -> Base:
+        """A base for an item that begins at byte `start` of a file."""
+        self._count += 1
+        base = Base(self._count * REACH)
+        self.put(base, file, start)
+        return base
 
-    def span(self, span: Span) -> Span:
-        """A range of places as a range of bytes of the text."""
-        start, end = span
-        return span if end < REACH else (self.real(start), self.real(end))
+    def put(self, base: Base, file: FileId, start: int) -> None:
+        """The item with this base begins at byte `start` of a file."""
+        self._begins[base // REACH] = file, start
 
-    def array(self, places: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Many places as bytes of the text."""
-        if not self._starts or not places.size:
+    def absolute(self, placed: Placed) -> Absolute:
+        """Where something stands now."""
+        file, start = self._byte(placed.start)
+        return Absolute(file, start, self._byte(placed.end)[1])
+
+    def _byte(self, place: int) -> tuple[FileId, int]:
+        file, begin = self._begins[place // REACH]
+        return file, begin + place % REACH
+
+    def bytes(self, places: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Many ends of what is `Placed`, as bytes of the one file that there is."""
+        if not places.size:
             return places
         items, numbers = np.unique(places // REACH, return_inverse=True)
-        starts = np.array([self._starts[item] if item else 0 for item in items.tolist()], np.int64)
-        return starts[numbers.reshape(places.shape)] + places % REACH
+        begins = np.array([self._begins[item][1] for item in items.tolist()], np.int64)
+        return begins[numbers.reshape(places.shape)] + places % REACH

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .span import MAIN, FileId
+
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 
@@ -19,18 +21,19 @@ class Position(NamedTuple):
 
 
 class Source:
-    """The text of one scene. Offsets everywhere in the compiler are byte offsets into `data`.
+    """The text of one file of a scene, `file`. Offsets everywhere in the compiler are byte offsets into `data`.
 
     A UTF-8 byte order mark is read as white space, so that offsets stay those of the file; it is no character of the
     first line.
     """
 
-    def __init__(self, data: bytes, name: str = "") -> None:
+    def __init__(self, data: bytes, name: str = "", file: FileId = MAIN) -> None:
         self._begin = len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
         if self._begin:
             data = b" " * self._begin + data[self._begin :]
         self.data = data
         self.name = name
+        self.file = file
 
     @cached_property
     def _line_starts(self) -> NDArray[np.int64]:

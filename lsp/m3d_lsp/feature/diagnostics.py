@@ -58,7 +58,7 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
     # A file that is still empty is no mistake while it is edited.
     empty = diagnostic.code == catalogue.EMPTY_FILE.code
     return types.Diagnostic(
-        snapshot.range(diagnostic.span),
+        snapshot.range(diagnostic.span.bytes),
         diagnostic.message,
         severity=types.DiagnosticSeverity.Information if empty else SEVERITY[diagnostic.severity],
         code=diagnostic.code,
@@ -66,7 +66,7 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
         source=SOURCE,
         tags=[types.DiagnosticTag.Unnecessary] if client.unnecessary and diagnostic.code in WITHOUT_EFFECT else None,
         related_information=[
-            types.DiagnosticRelatedInformation(snapshot.location(place.span), place.message)
+            types.DiagnosticRelatedInformation(snapshot.location(place.span.bytes), place.message)
             for place in (diagnostic.related if client.related_places else ())
         ]
         or None,

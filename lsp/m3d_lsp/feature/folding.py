@@ -11,6 +11,7 @@ import numpy as np
 from lsprotocol import types
 
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from ..comments import comments
 from ..registry import request
@@ -48,7 +49,7 @@ def _blocks(snapshot: Snapshot) -> Iterator[Span]:
         yield from map(top.place, _braced(top.item))
 
 
-def _braced(item: ast.Item) -> Iterator[Span]:
+def _braced(item: ast.Item) -> Iterator[Local]:
     match item:
         case ast.Variables() | ast.Table():
             yield item.span

@@ -13,6 +13,7 @@ from typing import TypeAlias, TypeVar
 from lsprotocol import types
 
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from ..names import Occurrence, Role, names
 from ..outline import Entry, outline
@@ -165,9 +166,9 @@ def _copies(snapshot: Snapshot) -> Iterator[tuple[Entry, Occurrence]]:
     known = names(snapshot.analysis)
     entries = {entry.span[0]: entry for entry in _all(outline(snapshot.analysis))}
     for top in snapshot.analysis.items:
-        for start, source in _sources(top.item):
-            occurrence = known.at(top.start + source.span[0])
-            entry = entries.get(top.start + start)
+        for whole, source in _sources(top.item):
+            occurrence = known.at(top.place(source.span)[0])
+            entry = entries.get(top.place(whole)[0])
             if occurrence is not None and entry is not None:
                 yield entry, occurrence
 
@@ -178,15 +179,15 @@ def _all(entries: tuple[Entry, ...]) -> Iterator[Entry]:
         yield from _all(entry.children)
 
 
-def _sources(item: ast.Item) -> Iterator[tuple[int, ast.Name]]:
-    """Where the blocks and the assignment in an item begin that copy a variable, and its name."""
+def _sources(item: ast.Item) -> Iterator[tuple[Local, ast.Name]]:
+    """The places of the blocks and the assignment in an item that copy a variable, and its name."""
     match item:
         case ast.Block():
             if item.name is not None:
-                yield item.span[0], item.name
+                yield item.span, item.name
         case ast.Assignment():
             if isinstance(item.value, ast.Name):
-                yield item.span[0], item.value
+                yield item.span, item.value
         case _:
             return
     for member in item.body.items if item.body is not None else ():

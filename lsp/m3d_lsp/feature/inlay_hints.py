@@ -28,6 +28,7 @@ from m3d_language.table import Argument
 from m3dc.meaning import program
 from m3dc.meaning.values import Record, Value
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from ..explain import argument_name
 from ..names import Names, Role, names
@@ -88,8 +89,9 @@ class _Hints:
                     yield from self._values([content.value])
                 yield from self._body(content.body or ())
 
-    def _in_view(self, span: Span) -> bool:
-        return span[1] + self._start >= self._seen[0] and span[0] + self._start <= self._seen[1]
+    def _in_view(self, span: Local) -> bool:
+        start, end = span.within(self._start)
+        return end >= self._seen[0] and start <= self._seen[1]
 
     def _body(self, body: tuple[program.Member, ...]) -> Iterator[_Placed]:
         for member in body:
@@ -108,7 +110,7 @@ class _Hints:
     def _statement(self, statement: program.Statement) -> Iterator[_Placed]:
         arguments = statement.entry.arguments
         if len(arguments) > 1:
-            starts = [argument.span[0] + self._start for argument in statement.arguments]
+            starts = [argument.span.within(self._start)[0] for argument in statement.arguments]
             yield from self._argument_names(arguments, starts)
         yield from self._values(statement.arguments)
 
@@ -137,20 +139,20 @@ class _Hints:
         for row in table.rows[first:last]:
             yield from self._values(row)
 
-    def _on_one_line(self, span: Span) -> bool:
-        return b"\n" not in self._snapshot.text.data[span[0] + self._start : span[1] + self._start]
+    def _on_one_line(self, span: Local) -> bool:
+        return b"\n" not in self._snapshot.text.data[slice(*span.within(self._start))]
 
     def _head(self, table: program.Table, starts: NDArray[np.int64]) -> Sequence[int]:
         """Where the arguments of a table's head begin."""
         if table.bulk is None:
-            return [argument.span[0] + self._start for argument in table.head]
-        start, end = table.keyword.span[1] + self._start, table.span[1] + self._start
+            return [argument.span.within(self._start)[0] for argument in table.head]
+        start, end = Local(table.keyword.span.end, table.span.end).within(self._start)
         return self._numbers(start, int(starts[0]) if len(starts) else end)
 
     def _first_row(self, table: program.Table, starts: NDArray[np.int64]) -> Sequence[int]:
         if table.bulk is None:
-            return [argument.span[0] + self._start for argument in table.rows[0]]
-        return self._numbers(int(starts[0]), int(starts[1]) if len(starts) > 1 else table.span[1] + self._start)
+            return [argument.span.within(self._start)[0] for argument in table.rows[0]]
+        return self._numbers(int(starts[0]), int(starts[1]) if len(starts) > 1 else table.span.within(self._start)[1])
 
     def _numbers(self, start: int, end: int) -> list[int]:
         """Where the values in a part of a table begin."""
@@ -168,12 +170,12 @@ class _Hints:
                 continue
             for name in argument.components if isinstance(argument, ast.Vector) else (argument,):
                 if isinstance(name, ast.Name):
-                    start, end = name.span
-                    value = self._names.value(name.text, start + self._start)
+                    start, end = name.span.within(self._start)
+                    value = self._names.value(name.text, start)
                     if value is None or isinstance(value, Record):
                         continue
-                    if not self._is_said(name.text, start + self._start, value):
-                        yield self._hint(end + self._start, f"= {value_text(value)}", None, before=False)
+                    if not self._is_said(name.text, start, value):
+                        yield self._hint(end, f"= {value_text(value)}", None, before=False)
 
     def _is_said(self, name: str, offset: int, value: Value) -> bool:
         """Whether a variable's value is said on the line of a use or the one before: where it was used before, or where

@@ -19,7 +19,7 @@ from tree_sitter import Node
 
 from m3d_language.table import LANGUAGE
 
-from ...diagnostics import Findings
+from ...diagnostics import TextFindings
 from ...text.span import Span
 from .faults import TooManyError
 from .reader import Read, Reader
@@ -35,7 +35,7 @@ class Recovered(NamedTuple):
     names: frozenset[str]
 
 
-def recover(data: bytes, root: Node, end: int, findings: Findings, most: int) -> Recovered | None:
+def recover(data: bytes, root: Node, end: int, findings: TextFindings, most: int) -> Recovered | None:
     """Read the stretches of a text, up to `end`, that have errors in its tree. None if there are more faults than
     `most`: the text is given up."""
     nodes = [node for node in root.children if node.type != "comment" and node.start_byte < end]

@@ -6,7 +6,7 @@ from m3d_language.comments import blank_comments
 from m3d_language.table import LANGUAGE
 
 from ...diagnostics import Related, catalogue
-from ...text.span import Span
+from ...text.span import Local, Span
 from .. import ast
 from . import wording
 from .faults import Faults
@@ -112,11 +112,11 @@ class Cursor:
         of this one."""
         return token.span if not token.first and token.kind != "end" else (self.before, self.before)
 
-    def relative(self, span: Span) -> Span:
+    def relative(self, span: Span) -> Local:
         """A span of the text, from the start of the item."""
-        return span[0] - self.start, span[1] - self.start
+        return Local(span[0] - self.start, span[1] - self.start)
 
-    def since(self, token: Token) -> Span:
+    def since(self, token: Token) -> Local:
         """From a token up to here, from the start of the item."""
         return self.relative((token.start, self.before))
 
@@ -128,10 +128,8 @@ class Cursor:
         """Report a name that is too long."""
         longest = LANGUAGE.limits["identifier"]
         if len(name.text) > longest:
-            span = (name.span[0] + self.start, name.span[1] + self.start)
-            self.faults.findings.add(
-                catalogue.NAME_TOO_LONG, span, f"at most {longest} characters, not {len(name.text)}"
-            )
+            detail = f"at most {longest} characters, not {len(name.text)}"
+            self.faults.findings.add(catalogue.NAME_TOO_LONG, name.span.within(self.start), detail)
 
     def ends_all(self, token: Token) -> bool:
         """Whether a token, within a block, begins an item of the top level: the block is not closed then."""

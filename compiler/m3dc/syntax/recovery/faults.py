@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from m3d_language.table import Block
 
-from ...diagnostics import Findings, Fix, Related, catalogue
+from ...diagnostics import Fix, Related, TextFindings, catalogue
 from ...diagnostics.catalogue import Entry
 from ...diagnostics.words import statement_of
 from ...text.span import Span
@@ -33,7 +33,7 @@ class _Habit(NamedTuple):
 class Faults:
     """The faults of a text. Their places are bytes of the text."""
 
-    def __init__(self, data: bytes, findings: Findings, most: int) -> None:
+    def __init__(self, data: bytes, findings: TextFindings, most: int) -> None:
         self.findings = findings
         self.marks: dict[int, int] = {}  # by the starts of items, how much had been found
         self._habits: dict[str, _Habit] = {}
@@ -67,7 +67,7 @@ class Faults:
         detail: str,
         *,
         fill: str = "",
-        related: tuple[Related, ...] = (),
+        related: tuple[Related[Span], ...] = (),
         edits: list[tuple[Span, str]] | None = None,
         title: str = "",
         kind: str | None = None,

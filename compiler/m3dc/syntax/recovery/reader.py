@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...diagnostics import Findings, catalogue
+from ...diagnostics import TextFindings, catalogue
 from ...text.span import Span
 from .. import ast
 from .cursor import Cursor
@@ -29,7 +29,7 @@ class Reader:
     """Reads items one after the other: `read` are those read up to now, `stretches` where they stand."""
 
     def __init__(
-        self, data: bytes, end: int, findings: Findings, whole: set[int], most: int, types: dict[str, str]
+        self, data: bytes, end: int, findings: TextFindings, whole: set[int], most: int, types: dict[str, str]
     ) -> None:
         self.read: list[Read] = []
         self.stretches: list[Span] = []

@@ -99,10 +99,11 @@ def _operand(cursor: Cursor, shape: str | None) -> ast.Argument | None:
 
 
 def _number(cursor: Cursor, span: Span) -> ast.Number:
-    base = cursor.faults.findings.base
-    number = numerals.read(cursor.data[span[0] : span[1]], span, cursor.faults.findings)
-    cursor.faults.findings.base = base
-    return number._replace(span=cursor.relative(span))
+    value, fault = numerals.read(cursor.data[slice(*span)])
+    if fault is not None:
+        place = (span[0] + fault.start, span[1])
+        cursor.faults.findings.add(fault.entry, place, fault.detail, fix=fault.fix(span))
+    return ast.Number(value, cursor.relative(span))
 
 
 def _name_or_call(cursor: Cursor, token: Token, shape: str | None) -> ast.Argument | None:

@@ -11,6 +11,7 @@ from lsprotocol import types
 from m3dc import Diagnostic
 from m3dc.analysis import Analysis
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from ...snapshot import Snapshot
 from ...text import Span
@@ -48,7 +49,7 @@ class Site:
     def found(self) -> tuple[Diagnostic, ...]:
         """The diagnostics at the place."""
         start, end = self.span
-        return tuple(d for d in self.analysis.diagnostics if d.span[0] <= end and d.span[1] >= start)
+        return tuple(d for d in self.analysis.diagnostics if d.span.start <= end and d.span.end >= start)
 
     @cached_property
     def top(self) -> ast.TopLevel | None:
@@ -73,12 +74,12 @@ class Site:
         """Whether the top-level item has no error."""
         if self.top is None:
             return False
-        whole = self.real(self.top.item.span)
+        start, end = self.real(self.top.item.span)
         errors = (d.span for d in self.analysis.diagnostics if d.severity == "error")
-        return not any(start < whole[1] and end > whole[0] for start, end in errors)
+        return not any(error.start < end and error.end > start for error in errors)
 
-    def real(self, span: Span) -> Span:
-        """A range of the top-level item as one of the text."""
+    def real(self, span: Local) -> Span:
+        """Where a part of the top-level item stands in the text."""
         assert self.top is not None
         return self.top.place(span)
 

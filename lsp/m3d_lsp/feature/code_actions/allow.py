@@ -16,7 +16,7 @@ def find(site: Site) -> Iterator[Action]:
     """For each code of a warning or hint here."""
     first = {d.code: d for d in reversed(site.found) if d.severity != "error"}
     for code, diagnostic in first.items():
-        here, everywhere = _here(site, diagnostic.span[0], code), _everywhere(site, code)
+        here, everywhere = _here(site, diagnostic.span.start, code), _everywhere(site, code)
         kind = types.CodeActionKind.QuickFix
         if here is not None:
             yield Action(f"Allow {code} here", kind, [here], (diagnostic,))

@@ -25,10 +25,10 @@ def find(site: Site) -> Iterator[Action]:
     table = site.path[-1] if site.path else None
     about = site.real(table.span) if isinstance(table, ast.Table) else site.span
     for diagnostic in site.analysis.diagnostics:
-        here = diagnostic in site.found or about[0] <= diagnostic.span[0] < about[1]
+        here = diagnostic in site.found or about[0] <= diagnostic.span.start < about[1]
         if diagnostic.code not in MISCOUNTED or not here:
             continue
-        place = site.at(diagnostic.span[0])
+        place = site.at(diagnostic.span.start)
         table = place.path[-1] if place.path else None
         rows = _rows(place) if isinstance(table, ast.Table) else None
         if rows is None or not isinstance(table, ast.Table):

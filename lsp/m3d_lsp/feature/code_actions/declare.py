@@ -17,6 +17,7 @@ from m3dc.meaning.values import spelled
 from m3dc.syntax.parse import ast
 
 from ...names import names
+from ...text import Span
 from .action import Action, Site
 from .declaring import declared, new_before
 
@@ -28,8 +29,8 @@ def find(site: Site) -> Iterator[Action]:
     for diagnostic in site.found:
         if diagnostic.code != catalogue.UNDEFINED_NAME.code:
             continue
-        use = site.at(diagnostic.span[0])
-        name = site.text(diagnostic.span)
+        use = site.at(diagnostic.span.start)
+        name = site.text(diagnostic.span.bytes)
         if use.top is None or names(site.analysis).declaration(name) is not None:
             continue
         for type_, value in list(_wanted(use, diagnostic))[:MOST]:
@@ -50,7 +51,7 @@ def _first_use(site: Site, name: str) -> int:
 def _wanted(use: Site, diagnostic: Diagnostic) -> Iterator[tuple[str, str]]:
     """The types that the name at a place can have, likeliest first, each with a value to give it, or ''."""
     item = use.path[-1]
-    at = diagnostic.span
+    at = diagnostic.span.bytes
     match item:
         case ast.Block() if item.name is not None and use.real(item.name.span) == at:
             if item.keyword.text in LANGUAGE.types:
@@ -86,7 +87,7 @@ def _types_of(use: Site, item: ast.Assignment) -> Iterator[str]:
                     yield type_
 
 
-def _argument(use: Site, item: ast.Statement | ast.Table, at: tuple[int, int]) -> Iterator[tuple[str, str]]:
+def _argument(use: Site, item: ast.Statement | ast.Table, at: Span) -> Iterator[tuple[str, str]]:
     """The shape and default of the argument that a name stands for."""
     arguments = item.arguments if isinstance(item, ast.Statement) else item.entries
     number = next((n for n, a in enumerate(arguments) if use.real(a.span)[0] <= at[0] < use.real(a.span)[1]), None)

@@ -34,17 +34,17 @@ def declared(site: Site, name: str, type_: str, before: int) -> list[Edit] | Non
         first = site.analysis.items[0].start if site.analysis.items else 0
         return [new_before(site, first, f"VARIABLES {{ {type_} {name}; }}\n\n")]
     assert isinstance(top.item, ast.Variables)
-    close = top.start + top.item.span[1] - 1
+    close = top.place(top.item.span)[1] - 1
     if close >= before or site.data[close : close + 1] != b"}":
         return None
     same = next((d for d in top.item.declarations if d.type.text == type_ and d.names), None)
     if same is not None:
-        end = top.start + same.names[-1].span[1]
+        _, end = top.place(same.names[-1].span)
         return [((end, end), f", {name}")]
     line = site.data.rfind(b"\n", 0, close) + 1
     if line > top.start and not site.data[line:close].strip():
         return [((line, line), f"{_indent(site, top)}{type_} {name};\n")]
-    last = max((top.start + d.span[1] for d in top.item.declarations), default=site.data.find(b"{", top.start) + 1)
+    last = max((top.place(d.span)[1] for d in top.item.declarations), default=site.data.find(b"{", top.start) + 1)
     return [((last, last), f" {type_} {name};")]
 
 
@@ -52,7 +52,7 @@ def _indent(site: Site, top: ast.TopLevel) -> str:
     """How far the last declaration is indented that begins a line."""
     assert isinstance(top.item, ast.Variables)
     for declaration in reversed(top.item.declarations):
-        start = top.start + declaration.span[0]
+        start, _ = top.place(declaration.span)
         margin = site.data[site.data.rfind(b"\n", 0, start) + 1 : start]
         if not margin.strip():
             return margin.decode("ascii")

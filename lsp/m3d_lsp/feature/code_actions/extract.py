@@ -9,6 +9,7 @@ from lsprotocol import types
 
 from m3d_language.table import LANGUAGE
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from .action import Action, Edit, Site
 from .declaring import declared, new_before, unused_name
@@ -42,7 +43,7 @@ def _block(site: Site, item: ast.Block) -> Iterator[Action]:
     if item.name is None and not is_fresh(site, site.path):
         return
     name = unused_name(site, keyword.lower())
-    start, end = site.real((item.keyword.span[1], item.span[1]))
+    start, end = site.real(Local(item.keyword.span.end, item.span.end))
     value = _moved(site, start, end)
     yield from _extracted(site, name, keyword, (start, end), f" {name}", f"{name} ={value}")
 

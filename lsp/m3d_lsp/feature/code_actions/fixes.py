@@ -16,7 +16,7 @@ def find(site: Site) -> Iterator[Action]:
     for diagnostic in site.found:
         fix = diagnostic.fix
         if fix is not None:
-            edit = fix.span, fix.text
+            edit = fix.span.bytes, fix.text
             yield Action(fix.title, types.CodeActionKind.QuickFix, [edit], (diagnostic,), fix.certain)
 
 
@@ -24,6 +24,6 @@ def find_all(site: Site) -> Iterator[Action]:
     """All certain fixes of the file as one."""
     mended = all_certain(site.analysis.diagnostics)
     if mended:
-        edits: list[Edit] = [(d.fix.span, d.fix.text) for d in mended if d.fix is not None]
+        edits: list[Edit] = [(d.fix.span.bytes, d.fix.text) for d in mended if d.fix is not None]
         title = "Fix all that is certain"
         yield Action(title, types.CodeActionKind.SourceFixAll, edits, tuple(mended))

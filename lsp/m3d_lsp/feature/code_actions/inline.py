@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from lsprotocol import types
 
 from m3dc.syntax.parse import ast
+from m3dc.text.span import Local
 
 from ...names import Occurrence, Role, names
 from ...text import Span
@@ -43,8 +44,8 @@ def _inlined(site: Site, use: Occurrence) -> Edit | None:
         return None
     start, assignment = last
     value, body = assignment.value, assignment.body
-    first = value.span[0] if value is not None else body.span[0] if body is not None else 0
-    span = start + first, start + assignment.span[1]
+    first = value or body
+    span = Local(0 if first is None else first.span.start, assignment.span.end).within(start)
     if any(_changes(site, other, span[1], place.top.start) for other in _names_in(site, span)):
         return None
     text = site.text(span)
@@ -81,12 +82,12 @@ def _assignment(site: Site, use: Occurrence) -> tuple[int, ast.Assignment] | Non
         for top in site.analysis.items
         if isinstance(top.item, ast.Assignment)
         and top.item.target.text == use.name
-        and top.start + top.item.span[1] <= use.span[0]
+        and top.place(top.item.span)[1] <= use.span[0]
     ]
     if not before or (before[-1][1].value is None and len(before) > 1):
         return None
     start, last = before[-1]
-    end = start + last.span[1]
+    _, end = last.span.within(start)
     whole = last.body is None or site.data[end - 1 : end] == b"}"
     return before[-1] if whole and (last.value is not None or last.body is not None) else None
 

@@ -64,7 +64,7 @@ def _record(site: Site, table: ast.Table) -> Record | None:
         return None
     record = around.innermost
     value = record.tables.get(FLAT)
-    own = value is not None and around.places.span(value.span) == site.real(table.span)
+    own = value is not None and around.places.absolute(value.span).bytes == site.real(table.span)
     return record if own and record.mesh is not None and len(record.mesh.facets) else None
 
 

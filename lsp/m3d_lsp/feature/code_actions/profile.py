@@ -11,6 +11,7 @@ from m3dc.diagnostics import catalogue
 from m3dc.syntax.parse import ast
 
 from ...standing import standing
+from ...text import Span
 from .action import Action, Edit, Site
 
 KEYWORD = "PROFILE"
@@ -24,12 +25,12 @@ def find(site: Site) -> Iterator[Action]:
     edit = _sorted(site, table)
     if edit is not None:
         unsorted = (d for d in site.analysis.diagnostics if d.code == catalogue.PROFILE_NOT_INCREASING.code)
-        mends = tuple(d for d in unsorted if _is_in(d.span, site, table))
+        mends = tuple(d for d in unsorted if _is_in(d.span.bytes, site, table))
         kind = types.CodeActionKind.QuickFix if mends else types.CodeActionKind.RefactorRewrite
         yield Action("Sort the points from low to high", kind, [edit], mends)
 
 
-def _is_in(span: tuple[int, int], site: Site, table: ast.Table) -> bool:
+def _is_in(span: Span, site: Site, table: ast.Table) -> bool:
     start, end = site.real(table.span)
     return start <= span[0] < end
 
@@ -39,7 +40,7 @@ def _sorted(site: Site, table: ast.Table) -> Edit | None:
     start, end = site.real(table.span)
     around = standing(site.analysis, end - 1)
     value = None if around is None else around.innermost.tables.get(KEYWORD)
-    if value is None or site.analysis.places.span(value.span)[0] != start or len(value.rows) < 2:
+    if value is None or site.analysis.places.absolute(value.span).start != start or len(value.rows) < 2:
         return None
     order = np.argsort(value.rows[:, 0], kind="stable")
     if (np.diff(order) > 0).all():

@@ -9,6 +9,7 @@ from lsprotocol import types
 from m3dc.diagnostics import catalogue
 from m3dc.syntax.parse import ast
 from m3dc.text.cut import cut
+from m3dc.text.span import Local
 
 from ...names import Role, names
 from ...text import Span
@@ -20,7 +21,7 @@ def find(site: Site) -> Iterator[Action]:
     for diagnostic in site.found:
         if diagnostic.code != catalogue.UNUSED_VARIABLE.code:
             continue
-        name = site.text(diagnostic.span)
+        name = site.text(diagnostic.span.bytes)
         if not any(o.role is Role.USE for o in names(site.analysis).of(name)):
             edits = [(span, "") for span in places_of(site, name)]
             title = f"Remove the unused variable {name}"
@@ -33,21 +34,21 @@ def places_of(site: Site, name: str) -> list[Span]:
     for top in site.analysis.items:
         item = top.item
         if isinstance(item, ast.Assignment) and item.target.text == name:
-            found.append(cut(site.data, top.start + item.span[0], top.start + item.span[1]))
+            found.append(cut(site.data, *top.place(item.span)))
         elif isinstance(item, ast.Variables):
             places = [(d, n) for d in item.declarations for n, given in enumerate(d.names) if given.text == name]
             if len(places) == sum(len(d.names) for d in item.declarations):
-                found.append(cut(site.data, top.start, top.start + item.span[1]))
+                found.append(cut(site.data, *top.place(item.span)))
             else:
-                found += [_name(site, top.start, declaration, number) for declaration, number in places]
+                found += [_name(site, top, declaration, number) for declaration, number in places]
     return found
 
 
-def _name(site: Site, start: int, declaration: ast.Declaration, number: int) -> Span:
+def _name(site: Site, top: ast.TopLevel, declaration: ast.Declaration, number: int) -> Span:
     """One name of a declaration, with its comma; or the declaration."""
     given = declaration.names
     if len(given) == 1:
-        return cut(site.data, start + declaration.span[0], start + declaration.span[1])
+        return cut(site.data, *top.place(declaration.span))
     if number:
-        return start + given[number - 1].span[1], start + given[number].span[1]
-    return start + given[0].span[0], start + given[1].span[0]
+        return top.place(Local(given[number - 1].span.end, given[number].span.end))
+    return top.place(Local(given[0].span.start, given[1].span.start))

@@ -29,7 +29,7 @@ def find(site: Site) -> Iterator[Action]:
     while last + 1 < len(items) and _belongs(items[last + 1].item, parent):
         last += 1
     start, end = items[first].start, items[last].place(items[last].item.span)[1]
-    mends = tuple(d for d in mended if start <= d.span[0] < end)
+    mends = tuple(d for d in mended if start <= d.span.start < end)
     title = f"Put {'this' if first == last else f'these {last - first + 1}'} into a {parent}"
     yield Action(title, types.CodeActionKind.QuickFix, list(_edits(site, parent, start, end)), mends)
 

@@ -6,7 +6,9 @@ import math
 import sys
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
+from importlib.machinery import ModuleSpec
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -394,16 +396,24 @@ def test_what_goes_wrong_is_explained(
     monkeypatch.chdir(scene.parent)
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.setattr("sys.platform", "linux")
+    there = ModuleType("pyvista")
+    there.__spec__ = ModuleSpec("pyvista", None)
+    monkeypatch.setitem(sys.modules, "pyvista", there)
     Path("broken.m3d").write_text("SOLID { SPHERE { RADIUS -1 } }")
     assert exit_status(main, arguments) == status
     assert message in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("arguments", [["--screenshot", "a.png"], []])
 def test_without_pyvista_it_says_how_to_get_it(
-    scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], arguments: list[str]
 ):
+    """Whatever else is missing, a display or what draws without one."""
+    monkeypatch.chdir(scene.parent)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.setattr("m3d_render.view.backend._WITHOUT_DISPLAY", ())
     monkeypatch.setitem(sys.modules, "pyvista", None)
-    assert main([str(scene), "--screenshot", str(scene.parent / "a.png")]) == 2
+    assert main([str(scene), *arguments]) == 2
     assert 'pip install "mirage3d[view]"' in capsys.readouterr().err
 
 

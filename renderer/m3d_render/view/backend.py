@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from importlib.util import find_spec
 from typing import Any
 
 from m3d_render.command import USAGE_ERROR, CommandError, how_to_get
@@ -19,15 +20,16 @@ _WITHOUT_DISPLAY = (
 
 def load_pyvista(*, window: bool) -> Any:
     """The module pyvista, to draw in a `window` or without one. Raises CommandError where that can not be."""
+    # First of all, because what else is missing would then be needed for nothing.
+    if find_spec("pyvista") is None:
+        message = f"m3d-view draws with pyvista, which is not installed: {how_to_get('view')} (700 MB)"
+        raise CommandError(USAGE_ERROR, message)
     if sys.platform.startswith("linux"):
         _check_display() if window else _choose_without_display()
     try:
         import pyvista  # pyright: ignore[reportMissingImports, reportMissingTypeStubs, reportUnusedImport]
     except ImportError as error:
-        if error.name == "pyvista":
-            message = f"m3d-view draws with pyvista, which is not installed: {how_to_get('view')} (700 MB)"
-        else:
-            message = f"pyvista, which m3d-view draws with, can not be loaded: {error}"
+        message = f"pyvista, which m3d-view draws with, can not be loaded: {error}"
         raise CommandError(USAGE_ERROR, message) from None
     return pyvista  # pyright: ignore[reportUnknownVariableType]
 

@@ -23,14 +23,8 @@ help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
 		printf '  make %-15s %s\n' "$$name" "$$text"; done
 
-demo: programs ## Render the merman scene with straight and with bent rays into out/
-	@mkdir -p $(OUT)
-	@echo "Compiling and rendering examples/merman.m3d ..."
-	$(BIN)/m3dc -o $(OUT)/merman.m3ir examples/merman.m3d
-	$(BIN)/m3d-render $(OUT)/merman.m3ir --straight -o $(OUT)/merman-straight.png
-	$(BIN)/m3d-render $(OUT)/merman.m3ir -o $(OUT)/merman-mirage.png
-	@echo "What is there:       $(CURDIR)/$(OUT)/merman-straight.png"
-	@echo "What one sees of it: $(CURDIR)/$(OUT)/merman-mirage.png"
+demo: ## Render the merman scene with straight and with bent rays into out/
+	@PYTHON="$(PYTHON)" MAKE="$(MAKE)" sh tools/demo.sh
 
 test: tools ## Run all tests
 	$(BIN)/python -m pytest -q

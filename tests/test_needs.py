@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from tools.version import version
+
 ROOT = Path(__file__).parent.parent
-TOOLS = ("sh", "make", "sed", "dirname", "test", "echo", "uname")
+TOOLS = ("sh", "make", "sed", "dirname", "test", "echo", "uname", "ls")
 SAYS = {
     "python3": "python3, 3.11 or newer, is missing",
     "cc": "A C compiler is missing",
@@ -43,7 +45,7 @@ def test_what_is_missing_is_said_with_what_brings_it(missing: set[str], tmp_path
     assert done.returncode == 1
     for name, says in SAYS.items():
         assert (says in done.stderr) == (name in missing)
-    for system in ("Debian, Ubuntu:", "Fedora:", "macOS:"):
+    for system in ("Debian, Ubuntu:", "Fedora:", "macOS:", "Windows:"):
         assert done.stderr.count(system) == len(missing)
 
 
@@ -63,3 +65,25 @@ def test_the_demo_asks_first(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "cargo 1.90 or newer is missing" in done.stderr
     assert done.stdout == "", "nothing else was begun"
+
+
+def test_wheels_need_only_python(tmp_path: Path) -> None:
+    done = needs(without({"cc", "cargo"}, tmp_path), "sh", "tools/needs.sh", "python")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_the_demo_does_without_wheels_for_other_machines(tmp_path: Path) -> None:
+    """A wheel for another machine is said to be one, and then the demo asks for what a build needs."""
+    checkout, programs = tmp_path / "checkout", tmp_path / "bin"
+    programs.mkdir()
+    for name in ("Makefile", "pyproject.toml", "renderer/Cargo.toml", "tools/demo.sh", "tools/needs.sh"):
+        (checkout / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, checkout / name)
+    (checkout / "dist").mkdir()
+    (checkout / f"dist/m3d_render-{version()}-cp311-abi3-macosx_4_2_arm64.whl").touch()
+    done = subprocess.run(
+        ["make", "demo"], cwd=checkout, env=without({"cargo"}, programs), capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "They are not for this machine" in done.stdout
+    assert "cargo 1.90 or newer is missing" in done.stderr

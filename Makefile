@@ -17,7 +17,7 @@ CARGO_TEST := cargo test --quiet --release --workspace --manifest-path renderer/
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
-.PHONY: needs programs tools modules viewer wasm
+.PHONY: needs programs tools modules viewer wasm wheels release release-tools
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name text; do \
@@ -94,6 +94,13 @@ vsix: modules ## Pack the VS Code extension into out/
 	@rm -f $(OUT)/m3d-*.vsix
 	cd $(EXTENSION) && npm run --silent pack -- --out $(CURDIR)/$(OUT)/
 
+wheels: release-tools ## Build the distributions into dist/, and try them where there is no compiler
+	$(BIN)/python -m tools.release wheels
+
+release: release-tools ## Make all files of a release in dist/, with checksums: make release VERSION=x.y.z
+	@test -n "$(VERSION)" || { echo "Which version? make release VERSION=x.y.z"; exit 2; }
+	$(BIN)/python -m tools.release release $(VERSION)
+
 # --- what the commands above need ------------------------------------------------------------------------------------
 
 needs:
@@ -112,6 +119,10 @@ programs: needs $(UV)
 
 tools: needs $(UV)
 	@$(UV) sync $(QUIET) --inexact
+
+# Tools that nobody else needs, zig among them (500 MB), in an environment of their own.
+release-tools: tools
+	@UV_PROJECT_ENVIRONMENT=$(OUT)/packaging/tools $(UV) sync --quiet --only-group release
 
 # npm leaves this file. It is not `npm ci`, which refuses where the lock file lacks a package for another platform.
 modules: $(PICTURE)/node_modules/.package-lock.json $(EXTENSION)/node_modules/.package-lock.json

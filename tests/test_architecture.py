@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import re
 import subprocess
 import sys
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -100,6 +102,108 @@ def circle(arrows: Mapping[str, set[str]]) -> list[str]:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_no_modules_import_each_other(package: str) -> None:
     assert circle(graph(package)) == []
+
+
+CRATES = sorted(folder.parent for folder in (ROOT / "renderer/crates").glob("*/src"))
+
+
+def module_of(file: Path, source: Path) -> str:
+    """A Rust file's module: `texture::wood` of texture/wood.rs, "" of lib.rs."""
+    parts = file.relative_to(source).with_suffix("").parts
+    return "::".join(parts[:-1] if parts[-1] in {"lib", "mod"} else parts)
+
+
+def spread(path: str) -> Iterator[str]:
+    """The single paths of one of a `use`: a::{b, c::d} is a::b and a::c::d."""
+    before, opening, inside = path.partition("{")
+    if not opening:
+        yield path.partition(" as ")[0].strip()
+        return
+    depth, part = 0, ""
+    for sign in inside.rstrip().removesuffix("}") + ",":
+        if sign == "," and depth == 0:
+            if part.strip():
+                yield from spread(before + part.strip())
+            part = ""
+        else:
+            depth += (sign == "{") - (sign == "}")
+            part += sign
+
+
+def rust_graph(crate: Path) -> dict[str, set[str]]:
+    """Which modules of a crate name which others of it: in a `use`, or by a path within the code.
+
+    A module that declares another (`mod wood;`) does not name it, but one that re-exports from it (`pub use`) does.
+    What is for tests alone does not count.
+    """
+    source = crate / "src"
+    files = {module_of(file, source): file for file in source.rglob("*.rs")}
+    found: dict[str, set[str]] = {}
+    for module, file in files.items():
+        text = re.sub(r"//.*", "", file.read_text(encoding="utf-8")).split("#[cfg(test)]\nmod tests")[0]
+        used = re.findall(r"\buse ((?:[^;{]|\{(?:[^{}]|\{[^{}]*\})*\})+);", text)
+        code = re.sub(r"\buse [^;]+;", "", text)
+        paths = [path for tree in used for path in spread(re.sub(r"\s+", " ", tree))]
+        paths += re.findall(r"(?<![\w:])(?:\w+::)+\w+", code)
+        children = {name.rpartition("::")[2] for name in files if name and name.rpartition("::")[0] == module}
+        found[module] = set()
+        for path in paths:
+            first, *rest = path.split("::")
+            here = module.split("::") if module else []
+            if first in children:
+                rest = [*here, first, *rest]
+            elif first == "self":
+                rest = [*here, *rest]
+            elif first == "super":
+                above = 1 + sum(1 for _ in itertools.takewhile("super".__eq__, rest))
+                rest = [*here[: len(here) - above], *rest[above - 1 :]]
+            elif first != "crate":
+                continue
+            named = ("::".join(rest[:length]) for length in range(len(rest), -1, -1))
+            found[module].add(next(name for name in named if name in files))
+        found[module] -= {module}
+    return found
+
+
+@pytest.mark.parametrize("crate", CRATES, ids=lambda crate: crate.name)
+def test_no_modules_of_a_crate_name_each_other(crate: Path) -> None:
+    assert circle(rust_graph(crate)) == []
+
+
+def test_the_graph_of_a_crate_is_all_of_it(tmp_path: Path) -> None:
+    files = {
+        "lib.rs": "mod shape;\nmod ray;\npub use shape::{Bounds, sphere::Sphere};",
+        "ray.rs": "use crate::shape::{self, sphere::{Circle, Sphere}};\nfn f() { crate::shape::cut(); }",
+        "shape/mod.rs": "pub mod sphere;\n// use crate::ray;\nfn g() { sphere::h(std::mem::take) }",
+        "shape/sphere.rs": "use super::super::ray::Ray;\n#[cfg(test)]\nmod tests { use crate::shape::Bounds; }",
+    }
+    for name, text in files.items():
+        file = tmp_path / "src" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    arrows = rust_graph(tmp_path)
+    assert arrows == {
+        "": {"shape", "shape::sphere"},
+        "ray": {"shape", "shape::sphere"},
+        "shape": {"shape::sphere"},
+        "shape::sphere": {"ray"},
+    }
+    assert circle(arrows) == ["shape", "shape::sphere", "ray", "shape"]
+
+
+MAY_DEPEND = {
+    "kernel": {"glam", "obvhs", "serde", "wide"},
+    "ir": {"m3d-kernel", "glam", "rawzip", "serde", "serde_json"},
+    "work": {"m3d-kernel", "rayon"},
+    "python": {"m3d-kernel", "m3d-ir", "m3d-work", "glam", "numpy", "pyo3", "rayon"},
+    "web": {"m3d-kernel", "m3d-ir"},
+}
+
+
+@pytest.mark.parametrize("crate", CRATES, ids=lambda crate: crate.name)
+def test_crates_stand_one_upon_another(crate: Path) -> None:
+    """The kernel and what reads scenes for it know no Python and no threads; `work` knows threads, `python` Python."""
+    assert tomllib.loads((crate / "Cargo.toml").read_text())["dependencies"].keys() <= MAY_DEPEND[crate.name]
 
 
 ROOMS = ("text", "diagnostics", "syntax", "meaning", "ir")

@@ -17,6 +17,8 @@ from m3dc.ir.m3ir import VERSION
 PAGE = Path(__file__).parent.parent / "renderer/crates/ir/src/generated.rs"
 
 KINDS: tuple[type[IntEnum], ...] = (ir.PrimitiveKind, ir.TextureKind, ir.LightKind)
+_NAMES = {ir.Scene.__name__: "Globals"}
+"""What is called otherwise there, where a scene is the kernel's."""
 _TYPES = {float: "f64", int: "i64", bool: "bool", ir.Triple: "[f64; 3]"}
 
 _HEAD = f"""\
@@ -68,18 +70,22 @@ def _structures(kind: type[NamedTuple]) -> list[str]:
             one = get_args(one)[0]
         if hasattr(one, "_fields"):
             parts += _structures(one)
-            fields.append(f"    pub {name}: {form.format(one.__name__)},")
+            fields.append(f"    pub {name}: {form.format(_name(one))},")
         elif one in _TYPES:
             fields.append(f"    pub {name}: {form.format(_TYPES[one])},")
     parts.append("\n".join([
         f"/// {_says(kind)}",
         "#[derive(Clone, PartialEq, Debug, Deserialize)]",
-        f"pub struct {kind.__name__} {{",
+        f"pub struct {_name(kind)} {{",
         *fields,
         "}",
         "",
     ]))  # fmt: skip
     return parts
+
+
+def _name(kind: type[Any]) -> str:
+    return _NAMES.get(kind.__name__, kind.__name__)
 
 
 def _says(kind: type[Any]) -> str:

@@ -51,11 +51,11 @@ def _ir() -> str:
 
 use m3d_kernel::options::Options;
 
-use crate::Ir;
+use crate::ir::Ir;
 
 /// What the scene says, and what is meant where nothing is asked for.
 pub fn options(ir: &Ir) -> Options {{
-    let said = &ir.scene;
+    let said = &ir.globals;
     Options {{
 {fields}
     }}

@@ -2,16 +2,17 @@
 
 use m3d_kernel::optics::atmosphere::{Atmosphere, Limits};
 
+use crate::generated::Mirage;
 use crate::header::{count, number};
+use crate::ir::Ir;
 use crate::refusal::{Refusal, Result, damaged};
-use crate::{Ir, generated};
 
 /// A profile may have so many points.
 const MOST_POINTS: usize = 10_000;
 
 /// The atmosphere, if the scene has a MIRAGE. Each interval of the profile becomes `finer` layers.
 pub fn air(ir: &Ir, finer: usize) -> Result<Option<Atmosphere>> {
-    let Some(generated::Mirage { segments, distance, elevation }) = ir.scene.mirage else { return Ok(None) };
+    let Some(Mirage { segments, distance, elevation }) = ir.globals.mirage else { return Ok(None) };
     let limits = Limits {
         segments: count(segments),
         distance: number(distance, "distance")?,

@@ -157,7 +157,7 @@ pub struct Extent {
 
 /// What a scene says once.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-pub struct Scene {
+pub struct Globals {
     pub shadows: bool,
     pub log_scale: f64,
     pub depth: i64,

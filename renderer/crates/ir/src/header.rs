@@ -3,19 +3,19 @@
 use glam::DVec3;
 use serde::Deserialize;
 
-use crate::generated::{Scene, VERSION};
+use crate::generated::{Globals, VERSION};
 use crate::refusal::{Result, damaged};
-use crate::tables::place;
+use crate::tables::coordinate;
 
 #[derive(Deserialize)]
 struct Header {
     format: String,
     version: u64,
-    scene: Scene,
+    scene: Globals,
 }
 
 /// What a scene says once, of the header of a `.m3ir` file.
-pub fn read(json: &str) -> Result<Scene> {
+pub fn read(json: &str) -> Result<Globals> {
     let header: Header =
         serde_json::from_str(json).map_err(|error| damaged(format!("the header cannot be read: {error}")))?;
     if header.format != "m3ir" || header.version != VERSION {
@@ -36,7 +36,7 @@ pub fn vector(value: [f64; 3], name: &str) -> Result<DVec3> {
 /// A vector of the view within reach.
 pub fn position(value: [f64; 3], name: &str) -> Result<DVec3> {
     let vector = vector(value, name)?;
-    place(vector.abs().max_element(), || format!("the view's {name}")).map(|_| vector)
+    coordinate(vector.abs().max_element(), || format!("the view's {name}")).map(|_| vector)
 }
 
 /// A whole number; one below 0 counts as 0.

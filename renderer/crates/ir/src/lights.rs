@@ -2,8 +2,8 @@
 
 use m3d_kernel::shade::illumination::{Light, Source};
 
-use crate::Ir;
 use crate::generated::LightKind;
+use crate::ir::Ir;
 use crate::refusal::{Result, damaged};
 
 pub fn lights(ir: &Ir) -> Result<Vec<Light>> {

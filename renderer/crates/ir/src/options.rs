@@ -2,11 +2,11 @@
 
 use m3d_kernel::options::Options;
 
-use crate::Ir;
+use crate::ir::Ir;
 
 /// What the scene says, and what is meant where nothing is asked for.
 pub fn options(ir: &Ir) -> Options {
-    let said = &ir.scene;
+    let said = &ir.globals;
     Options {
         straight: false,
         shadows: said.shadows,

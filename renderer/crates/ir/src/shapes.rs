@@ -3,14 +3,16 @@
 use glam::DVec3;
 
 use m3d_kernel::ray::ShapeId;
-use m3d_kernel::scene::{Owner, Part, Shapes};
+use m3d_kernel::shape::facet::corners;
+use m3d_kernel::shape::plane::Plane;
 use m3d_kernel::shape::rectangle::Rectangle;
 use m3d_kernel::shape::sphere::Sphere;
+use m3d_kernel::shapes::{Owner, Part, Shapes};
 
-use crate::Ir;
 use crate::generated::PrimitiveKind;
+use crate::ir::Ir;
 use crate::refusal::{Refusal, Result, damaged};
-use crate::tables::{Owned, Table, place};
+use crate::tables::{Owned, Table, coordinate};
 
 /// P, U and V of a table of planar primitives.
 struct Planar<'a> {
@@ -23,7 +25,7 @@ struct Planar<'a> {
 impl<'a> Planar<'a> {
     fn of(ir: &Ir<'a>, name: &'static str) -> Result<Self> {
         let table = ir.table(name);
-        let (point, u, v) = (table.places("point")?, table.places("u")?, table.places("v")?);
+        let (point, u, v) = (table.positions("point")?, table.positions("u")?, table.positions("v")?);
         Ok(Self { table, point, u, v })
     }
 
@@ -34,10 +36,10 @@ impl<'a> Planar<'a> {
 
 fn spheres(ir: &Ir) -> Result<Vec<Sphere>> {
     let table = ir.table("spheres");
-    let center = table.places("center")?;
+    let center = table.positions("center")?;
     let radius = table.numbers("radius")?;
     for (row, &radius) in radius.iter().enumerate() {
-        place(radius, || format!("spheres.radius, row {row},"))?;
+        coordinate(radius, || format!("spheres.radius, row {row},"))?;
     }
     let (pole, equator) = (table.vectors("pole")?, table.vectors("equator")?);
     (0..center.len())
@@ -62,7 +64,7 @@ pub fn shapes(ir: &Ir, solids: usize, lights: usize) -> Result<Shapes> {
     let rectangles = Planar::of(ir, "rectangles")?;
     let mut meshes = Meshes::of(ir)?;
     let mut shapes = Shapes::default();
-    shapes.vertices = ir.table("vertices").places("position")?;
+    shapes.vertices = ir.table("vertices").positions("position")?;
     shapes.normals = ir.table("normals").vectors("direction")?;
     if kind.len() + meshes.owned.length > ShapeId::MOST || shapes.vertices.len() > ShapeId::MOST {
         return Err(Refusal::Limit("the scene has more than 1,073,741,824 shapes".into()));
@@ -70,15 +72,11 @@ pub fn shapes(ir: &Ir, solids: usize, lights: usize) -> Result<Shapes> {
     shapes.reserve(kind.len(), meshes.owned.length).map_err(|_| Refusal::TooLarge)?;
     for (i, &kind) in kind.iter().enumerate() {
         let owner = match (table.entry(solid, i)?, table.entry(light, i)?) {
-            (solid, -1) if usize::try_from(solid).is_ok_and(|row| row < solids) => {
-                Owner::Solid(solid as usize)
-            }
-            (-1, light) if usize::try_from(light).is_ok_and(|row| row < lights) => {
-                Owner::Light(light as usize)
-            }
+            (solid, -1) if usize::try_from(solid).is_ok_and(|row| row < solids) => Owner::Solid(solid as u32),
+            (-1, light) if usize::try_from(light).is_ok_and(|row| row < lights) => Owner::Light(light as u32),
             _ => return Err(damaged(format!("primitive {i} belongs to no solid and no light"))),
         };
-        let part = Part { owner, primitive: i };
+        let part = Part { owner, primitive: i as u32 };
         let row = usize::try_from(table.entry(row, i)?)
             .map_err(|_| damaged(format!("primitive {i} has no row")))?;
         let kind = PrimitiveKind::numbered(kind)
@@ -86,19 +84,19 @@ pub fn shapes(ir: &Ir, solids: usize, lights: usize) -> Result<Shapes> {
         match kind {
             PrimitiveKind::Sphere => {
                 let sphere = spheres.get(row).ok_or_else(|| damaged(format!("spheres has no row {row}")))?;
-                shapes.push_sphere(*sphere, part);
+                shapes.push(*sphere, part);
             }
             PrimitiveKind::Plane => {
                 let (point, u, v) = planes.row(row)?;
-                shapes.push_plane(point, u.cross(v), part);
+                shapes.push(Plane::spanned(point, u, v), part);
             }
             PrimitiveKind::Triangle => {
                 let (point, u, v) = triangles.row(row)?;
-                shapes.push_triangle([point + v, point, point + u], part);
+                shapes.push_triangle(corners(point, u, v), part);
             }
             PrimitiveKind::Rectangle => {
                 let (point, u, v) = rectangles.row(row)?;
-                shapes.push_rectangle(Rectangle { point, u, v }, part);
+                shapes.push(Rectangle { point, u, v }, part);
             }
             PrimitiveKind::Polygons | PrimitiveKind::Terrain => meshes.push(row, part, &mut shapes)?,
         }

@@ -5,7 +5,7 @@ use m3d_kernel::shade::highlight::Gloss;
 use m3d_kernel::shade::illumination::Surface;
 use m3d_kernel::texture::heights::Heights;
 
-use crate::Ir;
+use crate::ir::Ir;
 use crate::refusal::Result;
 use crate::tables::Owned;
 use crate::textures::textures;
@@ -53,6 +53,6 @@ pub fn solids(ir: &Ir) -> Result<Vec<Solid>> {
 
 /// The heights of the scene's extent, if it has any.
 fn heights(ir: &Ir) -> Option<Heights> {
-    let extent = ir.scene.extent.as_ref()?;
+    let extent = ir.globals.extent.as_ref()?;
     Some(Heights { low: extent.minimum[2], high: extent.maximum[2] })
 }

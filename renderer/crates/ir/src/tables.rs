@@ -57,7 +57,7 @@ impl Number for bool {
 }
 
 /// A coordinate, or a length.
-pub fn place(value: f64, what: impl FnOnce() -> String) -> Result<f64> {
+pub fn coordinate(value: f64, what: impl FnOnce() -> String) -> Result<f64> {
     if !value.is_finite() {
         Err(damaged(format!("{} is not a finite number", what())))
     } else if value.abs() > FARTHEST {
@@ -131,11 +131,11 @@ impl<'a> Table<'a> {
     }
 
     /// A column of vectors within reach.
-    pub fn places(&self, column: &str) -> Result<Vec<DVec3>> {
+    pub fn positions(&self, column: &str) -> Result<Vec<DVec3>> {
         let values = self.vectors(column)?;
         let largest = |value: &DVec3| value.abs().max_element();
         if let Some(row) = values.iter().position(|value| largest(value) > FARTHEST) {
-            place(largest(&values[row]), || format!("{}.{column}, row {row},", self.name))?;
+            coordinate(largest(&values[row]), || format!("{}.{column}, row {row},", self.name))?;
         }
         Ok(values)
     }

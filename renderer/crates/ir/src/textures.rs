@@ -22,8 +22,8 @@ use m3d_kernel::texture::wave::Wave;
 use m3d_kernel::texture::waves::lowered_by_frequency;
 use m3d_kernel::texture::wood::Wood;
 
-use crate::Ir;
 use crate::generated::TextureKind;
+use crate::ir::Ir;
 use crate::refusal::{Result, damaged};
 use crate::tables::Owned;
 

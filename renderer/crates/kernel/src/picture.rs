@@ -12,11 +12,11 @@ pub fn picture(scene: &Scene, settings: &Settings) -> Vec<f32> {
     let film = settings.film();
     let never = AtomicBool::new(false);
     let mut tracer = Tracer::new(scene, settings, filter.as_ref(), &never);
-    let mut layers = vec![0.0; settings.channels()];
+    let mut outputs = vec![0.0; settings.channels()];
     let mut pixels = Vec::with_capacity(3 * settings.columns * settings.rows);
     for row in settings.top..settings.top + settings.rows {
         for column in settings.left..settings.left + settings.columns {
-            pixels.extend(film.expose(tracer.pixel(column, row, &mut layers)));
+            pixels.extend(film.expose(tracer.pixel(column, row, &mut outputs)));
         }
     }
     film.develop(&mut pixels);

@@ -1,39 +1,39 @@
-//! Random numbers that depend on nothing but what they are for: the pixel, the sample of it, and the place in the
+//! Random numbers that depend on nothing but what they are for: the pixel, the sample of it, and the branch of the
 //! tree of rays. No thread, no order of work and no part of the picture can be told from them.
 //!
 //! Philox4x32-10 of Salmon, Moraes, Dror and Shaw, *Parallel Random Numbers: As Easy as 1, 2, 3* (2011): ten rounds
 //! of multiplication make four random words of a counter and a key. Pixel, sample and block are the counter, the
-//! place in the tree is the key.
+//! branch of the tree is the key.
 
-/// A place in the tree of rays behind one sample of a pixel.
+/// A branch of the tree of rays behind one sample of a pixel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Place {
+pub struct Branch {
     pixel: [u32; 2],
     sample: u32,
     node: u64,
 }
 
-impl Place {
+impl Branch {
     /// Where the eye ray of a sample arrives.
     pub fn of_sample(x: usize, y: usize, sample: usize) -> Self {
         Self { pixel: [x as u32, y as u32], sample: sample as u32, node: 0 }
     }
 
-    /// Of all that begins at this place, that of a number.
+    /// Of the branches that begin at its end, the one of a number.
     pub fn child(self, number: u64) -> Self {
         Self { node: scramble(self.node ^ scramble(number.wrapping_add(1))), ..self }
     }
 
     /// The numbers that are drawn here, always the same ones.
     pub fn numbers(self) -> Numbers {
-        Numbers { place: self, block: [0; 4], drawn: 0 }
+        Numbers { branch: self, block: [0; 4], drawn: 0 }
     }
 }
 
 /// Numbers drawn one after another.
 #[derive(Clone, Debug)]
 pub struct Numbers {
-    place: Place,
+    branch: Branch,
     block: [u32; 4],
     drawn: u32,
 }
@@ -43,7 +43,7 @@ impl Numbers {
     pub fn unit(&mut self) -> f64 {
         let at = self.drawn % 4;
         if at == 0 {
-            let Place { pixel: [x, y], sample, node } = self.place;
+            let Branch { pixel: [x, y], sample, node } = self.branch;
             self.block = philox([x, y, sample, self.drawn / 4], [node as u32, (node >> 32) as u32]);
         }
         self.drawn = self.drawn.wrapping_add(1);
@@ -95,16 +95,16 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_uniform_and_differ_from_place_to_place() {
-        let here = Place::of_sample(3, 5, 0);
-        let draw = |place: Place| -> Vec<f64> {
-            let mut numbers = place.numbers();
+    fn numbers_are_uniform_and_differ_from_branch_to_branch() {
+        let here = Branch::of_sample(3, 5, 0);
+        let draw = |branch: Branch| -> Vec<f64> {
+            let mut numbers = branch.numbers();
             (0..10_000).map(|_| numbers.unit()).collect()
         };
         let mut seen = draw(here);
         assert_eq!(seen, draw(here));
-        let others = [here.child(0), here.child(1), here.child(0).child(0), Place::of_sample(5, 3, 0)];
-        for other in others.into_iter().chain([Place::of_sample(3, 5, 1)]) {
+        let others = [here.child(0), here.child(1), here.child(0).child(0), Branch::of_sample(5, 3, 0)];
+        for other in others.into_iter().chain([Branch::of_sample(3, 5, 1)]) {
             assert_ne!(seen, draw(other));
         }
         let mean = seen.iter().sum::<f64>() / 1e4;

@@ -2,41 +2,40 @@
 
 use glam::DVec3;
 
-/// Which shape of a scene: its kind and its row in that kind's table, in 32 bits.
+/// Which shape of a scene, in 32 bits. In a leaf of a tree four of them, with the corners of facets, fill a cache line.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct ShapeId(u32);
 
-/// The closed set of shapes a ray can meet.
+/// Where a shape stands in `Shapes`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ShapeKind {
-    Facet,
-    Sphere,
-    Rectangle,
-    Plane,
+pub enum Row {
+    Facet(usize),
+    /// A row of those that are no facets.
+    Other(usize),
 }
 
 impl ShapeId {
-    /// Rows a table may have at most.
+    /// Shapes there may be at most.
     pub const MOST: usize = 1 << 30;
+    const OTHER: u32 = 1 << 31;
 
-    pub fn new(kind: ShapeKind, row: usize) -> Self {
+    pub fn facet(row: usize) -> Self {
         debug_assert!(row < Self::MOST);
-        Self((kind as u32) << 30 | row as u32)
+        Self(row as u32)
+    }
+
+    pub fn other(row: usize) -> Self {
+        debug_assert!(row < Self::MOST);
+        Self(row as u32 | Self::OTHER)
     }
 
     #[inline]
-    pub fn kind(self) -> ShapeKind {
-        match self.0 >> 30 {
-            0 => ShapeKind::Facet,
-            1 => ShapeKind::Sphere,
-            2 => ShapeKind::Rectangle,
-            _ => ShapeKind::Plane,
+    pub fn row(self) -> Row {
+        if self.0 & Self::OTHER == 0 {
+            Row::Facet(self.0 as usize)
+        } else {
+            Row::Other((self.0 & !Self::OTHER) as usize)
         }
-    }
-
-    #[inline]
-    pub fn row(self) -> usize {
-        (self.0 & (Self::MOST as u32 - 1)) as usize
     }
 }
 

@@ -8,19 +8,22 @@ use glam::{DVec2, DVec3};
 use crate::bvh::Visit;
 use crate::camera::Size;
 use crate::film::Film;
-use crate::layer::Layer;
 use crate::optics::crossing::Crossing;
 use crate::optics::path::Path;
+use crate::optics::radial_plane::RadialPlane;
 use crate::optics::tip::Tip;
 use crate::options::Options;
-use crate::random::Place;
-use crate::ray::{Hit, Ray, ShapeId};
-use crate::scene::{Background, Owner, Scene, Solid};
+use crate::output::Output;
+use crate::random::Branch;
+use crate::ray::{Hit, Ray};
+use crate::scene::{Background, Scene, Solid};
 use crate::shade::illumination::LitPoint;
 use crate::shade::scatter::{into_hemisphere, roughened};
-use crate::shape::RadialPlane;
+use crate::shapes::Owner;
+use crate::sight::{Arrival, Sight, Way};
 use crate::supersampling::Filter;
-use crate::texture::{Skin, Spot, Texture};
+use crate::texture::Texture;
+use crate::texture::spot::{Skin, Spot};
 use crate::trace::{Departure, blocked, clearance, nearest, nearest_on_curve, uncertainty};
 
 /// A ray with a horizontal part shorter than this is straight.
@@ -32,7 +35,7 @@ const FAINTEST: f64 = 1e-7;
 /// So many sample rays may start one from another. Almost always they are too faint long before.
 const DEEPEST: usize = 64;
 
-/// Number of the place where FUZZ draws, after those of the mirror ray, 0, and of the sample rays, from 1.
+/// Number of the branch from which FUZZ draws, after those of the mirror ray, 0, and of the sample rays, from 1.
 const FUZZ: u64 = u64::MAX;
 
 /// What may be asked of a picture of a scene.
@@ -47,13 +50,13 @@ pub struct Settings {
     pub rows: usize,
     pub options: Options,
     /// Extra outputs, in this order.
-    pub layers: Vec<Layer>,
+    pub outputs: Vec<Output>,
 }
 
 impl Settings {
     /// Numbers a pixel that the extra outputs take.
     pub fn channels(&self) -> usize {
-        self.layers.iter().map(|layer| layer.channels()).sum()
+        self.outputs.iter().map(|output| output.channels()).sum()
     }
 
     pub fn film(&self) -> Film {
@@ -85,52 +88,6 @@ impl Tally {
     }
 }
 
-/// How far a ray has come.
-#[derive(Clone, Copy, Default, Debug)]
-pub struct Way {
-    /// As rounding grows with it: of a curve its horizontal part.
-    pub rough: f64,
-    /// Along the ray, as light goes; of a curve no more than `rough` where nobody asks for it.
-    pub length: f64,
-}
-
-impl Way {
-    fn and(self, further: f64) -> Self {
-        Self { rough: self.rough + further, length: self.length + further }
-    }
-}
-
-/// What a ray came upon. One that meets nothing goes on straight from the origin.
-#[derive(Clone, Copy, Debug)]
-pub enum Arrival {
-    Shape { shape: ShapeId, point: DVec3, direction: DVec3, way: Way },
-    Nothing { origin: DVec3, direction: DVec3, way: Way },
-}
-
-impl Arrival {
-    /// The shape, where it was met, and the direction of the ray there.
-    pub fn shape(&self) -> Option<(ShapeId, DVec3, DVec3)> {
-        match *self {
-            Arrival::Shape { shape, point, direction, .. } => Some((shape, point, direction)),
-            Arrival::Nothing { .. } => None,
-        }
-    }
-
-    /// How far the ray has come along its curve.
-    pub fn length(&self) -> f64 {
-        match self {
-            Arrival::Shape { way, .. } | Arrival::Nothing { way, .. } => way.length,
-        }
-    }
-}
-
-/// What an eye ray came upon, and the number of arcs it is made of; a straight one has none.
-#[derive(Clone, Copy, Debug)]
-pub struct Sight {
-    pub arrival: Arrival,
-    pub arcs: usize,
-}
-
 /// What a ray carries with it through the tree of rays.
 #[derive(Clone, Copy)]
 struct Errand {
@@ -140,7 +97,7 @@ struct Errand {
     scattered: usize,
     /// Most of what it brings that can come through to the pixel.
     share: f64,
-    place: Place,
+    branch: Branch,
 }
 
 /// One thread's means of tracing.
@@ -175,22 +132,22 @@ impl<'a> Tracer<'a> {
                 .filter(|_| !settings.options.straight)
                 .map(|air| Path::stopped_by(air, cancelled)),
             stack: Vec::with_capacity(256),
-            measures_length: scene.haze.density > 0.0 || settings.layers.contains(&Layer::Path),
+            measures_length: scene.haze.density > 0.0 || settings.outputs.contains(&Output::Path),
             tally: Tally::default(),
         }
     }
 
-    /// The colour of a pixel; the extra outputs of the ray through its middle go to `layers`.
-    pub fn pixel(&mut self, x: usize, y: usize, layers: &mut [f32]) -> DVec3 {
+    /// The colour of a pixel; the extra outputs of the ray through its middle go to `outputs`.
+    pub fn pixel(&mut self, x: usize, y: usize, outputs: &mut [f32]) -> DVec3 {
         let middle = |tracer: &mut Self| tracer.look(x as f64, y as f64);
         let Some(filter) = self.filter else {
             let sight = middle(self);
-            self.describe(&sight, layers);
-            return self.radiance(sight.arrival, Errand::of_eye(Place::of_sample(x, y, 0)));
+            self.describe(&sight, outputs);
+            return self.radiance(sight.arrival, Errand::of_eye(Branch::of_sample(x, y, 0)));
         };
-        if !layers.is_empty() {
+        if !outputs.is_empty() {
             let sight = middle(self);
-            self.describe(&sight, layers);
+            self.describe(&sight, outputs);
         }
         let mut sum = DVec3::ZERO;
         for (i, [dx, dy]) in filter.samples(x, y, self.settings.options.samples).enumerate() {
@@ -198,15 +155,15 @@ impl<'a> Tracer<'a> {
                 break;
             }
             let sight = self.look(x as f64 + dx, y as f64 + dy);
-            sum += self.radiance(sight.arrival, Errand::of_eye(Place::of_sample(x, y, i)));
+            sum += self.radiance(sight.arrival, Errand::of_eye(Branch::of_sample(x, y, i)));
         }
         sum / self.settings.options.samples as f64
     }
 
     fn describe(&self, sight: &Sight, mut out: &mut [f32]) {
-        for layer in &self.settings.layers {
-            layer.write(sight, &self.scene.camera, &self.scene.shapes, out);
-            out = &mut out[layer.channels()..];
+        for output in &self.settings.outputs {
+            output.write(sight, &self.scene.camera, &self.scene.shapes, out);
+            out = &mut out[output.channels()..];
         }
     }
 
@@ -326,9 +283,9 @@ impl<'a> Tracer<'a> {
             sum += share * (1.0 - clear) * haze.color;
             share *= clear;
             let solid = match scene.shapes.part(shape).owner {
-                Owner::Solid(solid) => &scene.solids[solid],
+                Owner::Solid(solid) => &scene.solids[solid as usize],
                 Owner::Light(light) => {
-                    let light = &scene.lights[light];
+                    let light = &scene.lights[light as usize];
                     return sum + share * light.intensity * light.color;
                 }
             };
@@ -347,7 +304,7 @@ impl<'a> Tracer<'a> {
             }
             let Skin { color: diffuse, mut normal } = skin;
             if solid.surface.fuzz > 0.0 {
-                normal = roughened(&mut errand.place.child(FUZZ).numbers(), normal, solid.surface.fuzz);
+                normal = roughened(&mut errand.branch.child(FUZZ).numbers(), normal, solid.surface.fuzz);
             }
             let lit = LitPoint { surface: &solid.surface, diffuse, normal, toward_viewer: -direction };
             let from = clearance(point, way.rough);
@@ -371,7 +328,7 @@ impl<'a> Tracer<'a> {
                 return sum;
             }
             errand.level += 1;
-            errand.place = errand.place.child(0);
+            errand.branch = errand.branch.child(0);
             // Eq. 3.1.
             let n = normal;
             let mut mirrored = direction - 2.0 * direction.dot(n) * n;
@@ -418,8 +375,8 @@ impl<'a> Tracer<'a> {
             if self.is_cancelled() {
                 break;
             }
-            let place = errand.place.child(i);
-            let direction = into_hemisphere(&mut place.numbers(), lit.normal);
+            let branch = errand.branch.child(i);
+            let direction = into_hemisphere(&mut branch.numbers(), lit.normal);
             let cosine = lit.normal.dot(direction);
             self.tally.ambient += 1;
             let ray = Ray { direction, ..*start };
@@ -430,7 +387,7 @@ impl<'a> Tracer<'a> {
                 None => Arrival::Nothing { origin: ray.origin, direction, way: Way::default() },
             };
             let (level, scattered) = (errand.level + 1, errand.scattered + 1);
-            let errand = Errand { level, scattered, share: share * cosine, place };
+            let errand = Errand { level, scattered, share: share * cosine, branch };
             sum += cosine * self.radiance(arrival, errand);
         }
         lit.scattered(sum / samples as f64)
@@ -475,7 +432,7 @@ impl<'a> Tracer<'a> {
 }
 
 impl Errand {
-    fn of_eye(place: Place) -> Self {
-        Self { level: 1, scattered: 0, share: 1.0, place }
+    fn of_eye(branch: Branch) -> Self {
+        Self { level: 1, scattered: 0, share: 1.0, branch }
     }
 }

@@ -4,7 +4,7 @@
 //! samples from the filter's weights (importance sampling of the filter: Ernst, Stamminger and Greiner 2006), so
 //! that all count alike and no pixel needs its neighbours: a region is the same as that part of the whole.
 
-use crate::random::Place;
+use crate::random::Branch;
 
 /// Half the filter's width, in pixels.
 const REACH: f64 = 1.5;
@@ -36,8 +36,8 @@ impl Filter {
 
     /// Where the samples of a pixel go, as offsets from its middle.
     pub fn samples(&self, x: usize, y: usize, count: usize) -> impl Iterator<Item = [f64; 2]> {
-        // Apart from all places of rays: those have numbers of samples.
-        let mut numbers = Place::of_sample(x, y, u32::MAX as usize).numbers();
+        // Apart from the branches of all rays: those have numbers of samples.
+        let mut numbers = Branch::of_sample(x, y, u32::MAX as usize).numbers();
         let (across, down) = (numbers.unit(), numbers.unit());
         (0..count).map(move |i| {
             let [u, v] = hammersley(i, count);
@@ -46,10 +46,10 @@ impl Filter {
     }
 
     fn offset(&self, share: f64) -> f64 {
-        let place = share * STEPS as f64;
-        let i = (place as usize).min(STEPS - 1);
+        let step = share * STEPS as f64;
+        let i = (step as usize).min(STEPS - 1);
         let (low, high) = (self.offsets[i], self.offsets[i + 1]);
-        low + (high - low) * (place - i as f64)
+        low + (high - low) * (step - i as f64)
     }
 }
 

@@ -4,31 +4,27 @@ use glam::{DVec2, DVec3};
 use wide::{CmpLe, f32x4};
 
 use crate::bvh::{Boxes, Bvh, Item, Probe, Slab, Visit, at_least};
-use crate::optics::crossing::{Crossing, Range, meet_circle, meet_line, meet_segment};
+use crate::optics::crossing::{Crossing, Range};
 use crate::optics::path::Path;
-use crate::ray::{Hit, Ray, ShapeId, ShapeKind};
-use crate::scene::Shapes;
-use crate::shape::{RadialPlane, cut, triangle};
+use crate::optics::radial_plane::RadialPlane;
+use crate::ray::{Hit, Ray, Row, ShapeId};
+use crate::shape::geometry::Geometry;
+use crate::shapes::Shapes;
 
 /// Distance at which a straight ray meets a shape.
 #[inline(always)] // It is called for every facet of every leaf.
 fn meet(shapes: &Shapes, ray: &Ray, shape: ShapeId, corners: [u32; 3]) -> Option<f64> {
     let own = ray.leaves == Some(shape);
-    if shape.kind() != ShapeKind::Facet {
-        return meet_other(shapes, ray, shape, own);
+    match shape.row() {
+        Row::Facet(_) => shapes.flat_facet(corners).meet(ray, own),
+        Row::Other(row) => meet_other(shapes, ray, row, own),
     }
-    if own { None } else { triangle::intersect(shapes.corners(corners), ray) }
 }
 
 /// The same for what is no facet, out of the way of those.
 #[inline(never)]
-fn meet_other(shapes: &Shapes, ray: &Ray, shape: ShapeId, own: bool) -> Option<f64> {
-    match shape.kind() {
-        ShapeKind::Sphere => shapes.sphere(shape.row()).intersect(ray, own),
-        _ if own => None,
-        ShapeKind::Rectangle => shapes.rectangle(shape.row()).intersect(ray),
-        _ => shapes.plane(shape.row()).intersect(ray),
-    }
+fn meet_other(shapes: &Shapes, ray: &Ray, row: usize, own: bool) -> Option<f64> {
+    shapes.other(row).meet(ray, own)
 }
 
 /// What a straight ray is after.
@@ -239,29 +235,15 @@ impl Curved<'_, '_, '_> {
     }
 
     fn try_shape(&mut self, shape: ShapeId, corners: [u32; 3]) {
-        let row = shape.row();
         let mut range = Range {
             from: self.departure.from,
             to: self.to,
             leaves: self.departure.leaves == Some(shape),
             hint: self.arc,
         };
-        let met = match shape.kind() {
-            ShapeKind::Facet => cut(&self.plane, self.shapes.corners(corners))
-                .and_then(|segment| meet_segment(self.path, &segment, &mut range)),
-            ShapeKind::Rectangle => self
-                .shapes
-                .rectangle(row)
-                .cut(&self.plane)
-                .and_then(|segment| meet_segment(self.path, &segment, &mut range)),
-            ShapeKind::Sphere => self
-                .shapes
-                .sphere(row)
-                .cut(&self.plane)
-                .and_then(|circle| meet_circle(self.path, &circle, &range)),
-            ShapeKind::Plane => {
-                self.shapes.plane(row).cut(&self.plane).and_then(|line| meet_line(self.path, &line, &range))
-            }
+        let met = match shape.row() {
+            Row::Facet(_) => self.shapes.flat_facet(corners).meet_curve(&self.plane, self.path, &mut range),
+            Row::Other(row) => self.shapes.other(row).meet_curve(&self.plane, self.path, &mut range),
         };
         self.arc = range.hint;
         if let Some(crossing) = met {
@@ -351,9 +333,11 @@ pub fn clearance(point: DVec3, travelled: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::optics::atmosphere::Atmosphere;
-    use crate::scene::{Owner, Part};
+    use crate::shape::facet::corners;
+    use crate::shape::plane::Plane;
     use crate::shape::rectangle::Rectangle;
     use crate::shape::sphere::Sphere;
+    use crate::shapes::{Owner, Part};
     use proptest::prelude::*;
 
     const PART: Part = Part { owner: Owner::Solid(0), primitive: 0 };
@@ -378,26 +362,25 @@ mod tests {
             .prop_map(|(triangles, rectangles, spheres, planes)| {
                 let mut shapes = Shapes::default();
                 for (p, u, v) in triangles {
-                    shapes.push_triangle([p + v, p, p + u], PART);
+                    shapes.push_triangle(corners(p, u, v), PART);
                 }
                 for (point, u, v) in rectangles {
-                    shapes.push_rectangle(Rectangle { point, u, v }, PART);
+                    shapes.push(Rectangle { point, u, v }, PART);
                 }
                 for (center, radius) in spheres {
-                    shapes.push_sphere(Sphere { center, radius, pole: DVec3::Z, equator: DVec3::X }, PART);
+                    shapes.push(Sphere { center, radius, pole: DVec3::Z, equator: DVec3::X }, PART);
                 }
                 for (point, u, v) in planes {
-                    shapes.push_plane(point, u.cross(v), PART);
+                    shapes.push(Plane::spanned(point, u, v), PART);
                 }
                 shapes
             })
     }
 
     /// Every shape of a tree, without its help.
-    fn each(shapes: &Shapes) -> Vec<ShapeId> {
-        let (solids, _) = shapes.trees();
-        let mut all = solids.unbounded.clone();
-        all.extend(solids.items().iter().map(|item| item.shape));
+    fn each(tree: &Bvh) -> Vec<ShapeId> {
+        let mut all = tree.unbounded.clone();
+        all.extend(tree.items().iter().map(|item| item.shape));
         all
     }
 
@@ -413,13 +396,13 @@ mod tests {
 
         #[test]
         fn the_tree_finds_what_trying_every_shape_finds(
-            shapes in shapes(), origin in point(250.0), target in point(200.0),
+            mut shapes in shapes(), origin in point(250.0), target in point(200.0),
         ) {
             prop_assume!(origin.distance(target) > 1e-3);
             let (tree, _) = shapes.trees();
             let ray = Ray::new(origin, (target - origin).normalize());
             let found = nearest(&shapes, &tree, &ray, &mut Vec::new());
-            let expected = each(&shapes)
+            let expected = each(&tree)
                 .into_iter()
                 .filter_map(|shape| Some((meet(&shapes, &ray, shape, shapes.corners_of(shape))?, shape)))
                 .min_by(|a, b| a.partial_cmp(b).unwrap());
@@ -434,7 +417,7 @@ mod tests {
         /// The curve is sampled so finely that its chords can be tested as straight rays.
         #[test]
         fn a_curve_hits_what_its_chords_hit(
-            shapes in shapes(), eye in point(250.0), toward in 0.0..std::f64::consts::TAU,
+            mut shapes in shapes(), eye in point(250.0), toward in 0.0..std::f64::consts::TAU,
             slope in -0.03..0.03f64, bends in prop::collection::vec(-3e-4..3e-4f64, 8),
         ) {
             let air = Atmosphere::of_bends(&bends, 300, 400.0);
@@ -446,7 +429,7 @@ mod tests {
             let found = found.map(|(hit, _)| hit);
             path.keep_all();
             // Chords of at most 0.2 m lie within 3e-6 m of the curve.
-            let all = each(&shapes);
+            let all = each(&tree);
             let mut expected = None;
             'curve: for arc in path.arcs() {
                 let steps = ((arc.r1 - arc.r0) / 0.2).ceil().max(1.0);

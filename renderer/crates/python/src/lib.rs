@@ -19,11 +19,11 @@ use rayon::prelude::*;
 
 use m3d_ir::{Ir, Refusal};
 use m3d_kernel::camera::Size;
-use m3d_kernel::layer::Layer;
 use m3d_kernel::optics::atmosphere::{Atmosphere, EARTH_RADIUS};
 use m3d_kernel::optics::path::Path;
 use m3d_kernel::optics::tip::End;
 use m3d_kernel::options::Options;
+use m3d_kernel::output::Output;
 use m3d_kernel::ray::Ray;
 use m3d_kernel::render::{Settings, Tally};
 use m3d_kernel::scene;
@@ -68,8 +68,8 @@ impl Request {
         if !within(left, columns, width) || !within(top, rows, height) {
             return Err(PyValueError::new_err("the region does not lie within the picture"));
         }
-        let layer = |name: &String| {
-            Layer::named(name).ok_or_else(|| PyValueError::new_err(format!("there is no layer {name}")))
+        let output = |name: &String| {
+            Output::named(name).ok_or_else(|| PyValueError::new_err(format!("there is no output {name}")))
         };
         Ok(Settings {
             size: Size { width, height },
@@ -78,7 +78,7 @@ impl Request {
             columns,
             rows,
             options: self.options.clone(),
-            layers: self.layers.iter().map(layer).collect::<PyResult<_>>()?,
+            outputs: self.layers.iter().map(output).collect::<PyResult<_>>()?,
         })
     }
 }
@@ -88,7 +88,7 @@ impl Request {
 struct Outcome {
     /// (rows, columns, 3)
     pixels: Py<PyArray3<f32>>,
-    /// (rows, columns, channels of all layers)
+    /// (rows, columns, channels of all extra outputs)
     layers: Py<PyArray3<f32>>,
     /// How many rows from the top are finished: all, unless `cancel` returned true.
     finished_rows: usize,
@@ -159,7 +159,7 @@ impl Scene {
             .build()
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
         let mut pixels = zeros(&[rows, columns, 3])?;
-        let mut layers = zeros(&[rows, columns, channels])?;
+        let mut outputs = zeros(&[rows, columns, channels])?;
         let watch = Watch::new(rows);
         let finished = Bell::default();
         let (sender, receiver) = channel();
@@ -167,7 +167,7 @@ impl Scene {
         let mut audience = Audience { settings: &settings, progress, cancel, tiles, told: 0, largest: 0.0 };
         let (tally, stopped) = std::thread::scope(|scope| {
             let (settings, watch) = (&settings, &watch);
-            let canvas = Canvas { pixels: &mut pixels, layers: &mut layers };
+            let canvas = Canvas { pixels: &mut pixels, outputs: &mut outputs };
             let work = scope.spawn(|| {
                 let _rings = finished.at_end();
                 pool.install(|| render(&self.0, settings, watch, canvas, sender))
@@ -195,7 +195,7 @@ impl Scene {
         };
         Ok(Outcome {
             pixels: array(pixels, 3)?,
-            layers: array(layers, channels)?,
+            layers: array(outputs, channels)?,
             finished_rows,
             counts: counts(py, &tally)?.unbind(),
         })
@@ -430,5 +430,5 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add("EARTH_RADIUS", EARTH_RADIUS)?;
     module.add("END_NAMES", END_NAMES.to_vec())?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
-    module.add("LAYERS", Layer::ALL.map(|(name, layer)| (name, layer.channels())).to_vec())
+    module.add("LAYERS", Output::ALL.map(|(name, output)| (name, output.channels())).to_vec())
 }

@@ -68,7 +68,7 @@ fn read(file: &[u8]) -> Result<(Scene, Settings), String> {
         columns: 0,
         rows: 0,
         options: m3d_ir::options(&ir),
-        layers: Vec::new(),
+        outputs: Vec::new(),
     };
     Ok((m3d_ir::scene(&ir, 1).map_err(|error| error.to_string())?, settings))
 }

@@ -8,11 +8,11 @@ use crate::pass::Pass;
 use crate::tile::Tile;
 use crate::watch::Watch;
 
-/// Where what is rendered goes, row after row: three numbers a pixel, and those of the extra layers.
+/// Where what is rendered goes, row after row: three numbers a pixel, and those of the extra outputs.
 #[derive(Debug)]
 pub struct Canvas<'a> {
     pub pixels: &'a mut [f32],
-    pub layers: &'a mut [f32],
+    pub outputs: &'a mut [f32],
 }
 
 /// A few rows of the picture.
@@ -22,16 +22,16 @@ pub(crate) struct Band<'a> {
 }
 
 pub(crate) fn bands<'a>(canvas: &'a mut Canvas, settings: &Settings, height: usize) -> Vec<Band<'a>> {
-    let mut layers = &mut *canvas.layers;
+    let mut outputs = &mut *canvas.outputs;
     let mut bands: Vec<Band> = Vec::with_capacity(settings.rows.div_ceil(height));
     for (row, pixels) in canvas.pixels.chunks_exact_mut(3 * settings.columns).enumerate() {
-        let (own, rest) = layers.split_at_mut(settings.columns * settings.channels());
-        layers = rest;
+        let (own, rest) = outputs.split_at_mut(settings.columns * settings.channels());
+        outputs = rest;
         if row % height == 0 {
             bands.push(Band { first_row: row, rows: Vec::with_capacity(height) });
         }
         if let Some(band) = bands.last_mut() {
-            band.rows.push(Canvas { pixels, layers: own });
+            band.rows.push(Canvas { pixels, outputs: own });
         }
     }
     bands
@@ -51,8 +51,8 @@ impl Band<'_> {
                 if !pass.has(column, row) {
                     continue;
                 }
-                let layers = &mut canvas.layers[column * channels..(column + 1) * channels];
-                let color = tracer.pixel(settings.left + column, settings.top + row, layers);
+                let outputs = &mut canvas.outputs[column * channels..(column + 1) * channels];
+                let color = tracer.pixel(settings.left + column, settings.top + row, outputs);
                 if watch.cancelled.load(Ordering::Relaxed) {
                     return false;
                 }

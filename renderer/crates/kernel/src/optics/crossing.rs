@@ -7,10 +7,8 @@
 
 use super::arc::Arc;
 use super::path::Path;
+use super::radial_plane::{Circle, Line, Segment};
 use super::tip::HeightRange;
-use crate::shape::Segment;
-use crate::shape::plane::Line;
-use crate::shape::sphere::Circle;
 use crate::within::within;
 
 /// Coefficients of q(s) = a s² + b s + c.

@@ -5,5 +5,6 @@ pub mod arc;
 pub mod atmosphere;
 pub mod crossing;
 pub mod path;
+pub mod radial_plane;
 mod sketch;
 pub mod tip;

@@ -8,7 +8,7 @@ use wide::f32x4;
 
 use super::arc::Arc;
 use super::atmosphere::Atmosphere;
-use super::sketch::{ArcSketch, Band, Bends};
+use super::sketch::{ArcSketch, Bends, Envelope};
 use super::tip::{HeightRange, Tip};
 
 /// What stops a curve that nobody stops.
@@ -21,7 +21,7 @@ pub struct Path<'a> {
     /// Set by whoever wants no more: then every search ends, with whatever it has found.
     cancelled: &'a AtomicBool,
     bends: Bends,
-    band: Band,
+    envelope: Envelope,
     eye_height: f64,
     /// The layer that holds the eye, or lies on it: the next curve mostly begins where the last one did.
     above_eye: usize,
@@ -48,7 +48,7 @@ impl<'a> Path<'a> {
             air,
             cancelled,
             bends,
-            band: Band::new(&bends, 0.0, 0.0),
+            envelope: Envelope::new(&bends, 0.0, 0.0),
             eye_height: f64::NEG_INFINITY,
             above_eye: 0,
             arcs: Vec::new(),
@@ -63,7 +63,7 @@ impl<'a> Path<'a> {
     pub fn start(&mut self, z: f64, slope: f64) {
         self.arcs.clear();
         self.sketches.clear();
-        self.band = Band::new(&self.bends, z, slope);
+        self.envelope = Envelope::new(&self.bends, z, slope);
         if z != self.eye_height {
             self.eye_height = z;
             self.above_eye = self.air.layers.partition_point(|layer| layer.top <= z);
@@ -92,7 +92,7 @@ impl<'a> Path<'a> {
 
     /// Beyond this the curve does not go.
     pub fn reach(&self) -> f32 {
-        self.band.reach
+        self.envelope.reach
     }
 
     /// Keeps all arcs.
@@ -212,7 +212,7 @@ impl<'a> Path<'a> {
         heights: [f32x4; 2],
         hint: &mut usize,
     ) -> f32x4 {
-        let (passed, vague) = self.band.passes(distances, heights);
+        let (passed, vague) = self.envelope.passes(distances, heights);
         let (passed, vague) = (asked & passed, asked & vague);
         if vague.none() {
             return passed;
@@ -220,7 +220,7 @@ impl<'a> Path<'a> {
         (passed & !vague) | self.arcs_pass(vague, distances, heights, hint)
     }
 
-    /// The same arc by arc. Seldom needed: the band tells much of a box that is not very flat.
+    /// The same arc by arc. Seldom needed: the envelope tells much of a box that is not very flat.
     #[inline(never)]
     fn arcs_pass(
         &mut self,
@@ -433,7 +433,7 @@ mod tests {
         }
 
         /// A box is passed when some point of the finely sampled curve lies in it. By the arcs exactly then; by the
-        /// band also where the curve is not farther from it than it is high, and beyond the curve's end.
+        /// envelope also where the curve is not farther from it than it is high, and beyond the curve's end.
         #[test]
         fn passes_agrees_with_sampling(
             bends in prop::collection::vec(-1e-4..1e-4f64, 1..6),
@@ -469,7 +469,7 @@ mod tests {
                 [true, _] if ends_before => true,
                 [passed, _] => inside(if passed { height + 0.01 } else { -1e-6 }) == passed,
             };
-            prop_assert!(right, "the band");
+            prop_assert!(right, "the envelope");
             prop_assert!(inside(if passed[1] { 0.01 } else { -1e-6 }) == passed[1], "the arcs");
         }
     }

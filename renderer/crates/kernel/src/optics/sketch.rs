@@ -38,7 +38,7 @@ impl Bends {
 /// Between which heights a whole curve runs, told from its beginning alone: bent nowhere less than `Bends::least` nor
 /// more than `Bends::most`, it stays between two parabolas, and it never leaves the layers.
 #[derive(Clone, Copy, Debug)]
-pub struct Band {
+pub struct Envelope {
     /// The lower parabola, bent down, and the upper one, bent up: so each is outermost at an end of any interval.
     sides: [[f32x4; 3]; 2],
     bottom: f32x4,
@@ -46,7 +46,7 @@ pub struct Band {
     pub reach: f32,
 }
 
-impl Band {
+impl Envelope {
     pub fn new(bends: &Bends, z: f64, slope: f64) -> Self {
         // Sixteen roundings, where evaluation makes five; and what the arcs themselves lose in f64, and on a boundary
         // that holds them.
@@ -63,8 +63,8 @@ impl Band {
         }
     }
 
-    /// Of the boxes over the distances `near`..`far` and the heights `low`..`high`, those that the band passes; and
-    /// those of them for which the band is too wide to tell much of the curve.
+    /// Of the boxes over the distances `near`..`far` and the heights `low`..`high`, those that the envelope passes; and
+    /// those of them for which the envelope is too wide to tell much of the curve.
     #[inline]
     pub fn passes(&self, [near, far]: [f32x4; 2], [low, high]: [f32x4; 2]) -> (f32x4, f32x4) {
         let height = |[half_bend, slope, z]: [f32x4; 3], r: f32x4| (half_bend * r + slope) * r + z;

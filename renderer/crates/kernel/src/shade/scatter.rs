@@ -37,11 +37,11 @@ fn within_cube(numbers: &mut Numbers) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Place;
+    use crate::random::Branch;
 
     #[test]
     fn samples_lie_in_the_hemisphere_and_keep_their_mean_cosine() {
-        let mut numbers = Place::of_sample(1, 2, 0).numbers();
+        let mut numbers = Branch::of_sample(1, 2, 0).numbers();
         let mut sum = 0.0;
         for _ in 0..100_000 {
             let direction = into_hemisphere(&mut numbers, DVec3::Z);
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn without_a_normal_there_is_still_a_direction() {
-        let mut numbers = Place::of_sample(1, 2, 0).numbers();
+        let mut numbers = Branch::of_sample(1, 2, 0).numbers();
         for normal in [DVec3::ZERO, DVec3::NAN] {
             assert!((into_hemisphere(&mut numbers, normal).length() - 1.0).abs() < 1e-12);
         }
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn a_rough_normal_stays_on_its_side_and_deviates_by_fuzz() {
-        let mut numbers = Place::of_sample(1, 2, 0).numbers();
+        let mut numbers = Branch::of_sample(1, 2, 0).numbers();
         for fuzz in [0.01, 0.3, 1.0] {
             let mut sum = DVec3::ZERO;
             for _ in 0..20_000 {

@@ -1,72 +1,93 @@
-//! The shapes a ray can meet, each with its test against a straight ray and its cut by the vertical plane of a
-//! curved one. Thesis 3.3 and 4.3.
+//! The shapes a ray can meet, a file each: with its box, its test against a straight ray, its cut by the vertical plane
+//! of a curved one, its normals and its u and v. Thesis 3.3 and 4.3.
 
+pub mod affine;
+pub mod facet;
+pub mod geometry;
 pub mod plane;
 pub mod rectangle;
 pub mod sphere;
-pub mod triangle;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-/// The vertical plane a curved ray runs in (thesis 4.2): through the eye O, along the horizontal unit vector R.
-#[derive(Clone, Copy, Debug)]
-pub struct RadialPlane {
-    pub origin: DVec3,
-    pub radial: DVec2,
+use crate::optics::crossing::{Crossing, Range};
+use crate::optics::path::Path;
+use crate::optics::radial_plane::RadialPlane;
+use crate::ray::Ray;
+use geometry::{Bounds, Geometry};
+use plane::Plane;
+use rectangle::Rectangle;
+use sphere::Sphere;
+
+/// Makes the enum of shapes, each question to which is passed on to the kind's own file.
+macro_rules! closed_set {
+    ($($kind:ident),*) => {
+        /// The closed set of shapes that are no facets.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Shape {
+            $($kind($kind),)*
+        }
+
+        /// In the order in which they count as nearer where a ray meets two at the same distance.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+        pub enum ShapeKind {
+            $($kind,)*
+        }
+
+        impl Shape {
+            pub fn kind(&self) -> ShapeKind {
+                match self {
+                    $(Self::$kind(_) => ShapeKind::$kind,)*
+                }
+            }
+        }
+
+        impl Geometry for Shape {
+            fn bounds(&self) -> Bounds {
+                match self {
+                    $(Self::$kind(shape) => shape.bounds(),)*
+                }
+            }
+
+            #[inline(always)]
+            fn meet(&self, ray: &Ray, own: bool) -> Option<f64> {
+                match self {
+                    $(Self::$kind(shape) => shape.meet(ray, own),)*
+                }
+            }
+
+            #[inline(always)]
+            fn meet_curve(&self, plane: &RadialPlane, path: &mut Path, range: &mut Range) -> Option<Crossing> {
+                match self {
+                    $(Self::$kind(shape) => shape.meet_curve(plane, path, range),)*
+                }
+            }
+
+            fn normal(&self, point: DVec3) -> DVec3 {
+                match self {
+                    $(Self::$kind(shape) => shape.normal(point),)*
+                }
+            }
+
+            fn shading_normal(&self, point: DVec3) -> Option<DVec3> {
+                match self {
+                    $(Self::$kind(shape) => shape.shading_normal(point),)*
+                }
+            }
+
+            fn uv(&self, point: DVec3) -> Option<(f64, f64)> {
+                match self {
+                    $(Self::$kind(shape) => shape.uv(point),)*
+                }
+            }
+        }
+
+        $(impl From<$kind> for Shape {
+            fn from(shape: $kind) -> Self {
+                Self::$kind(shape)
+            }
+        })*
+    };
 }
 
-impl RadialPlane {
-    /// Distance of a point along R.
-    #[inline]
-    pub fn along(&self, point: DVec3) -> f64 {
-        let (x, y) = (point.x - self.origin.x, point.y - self.origin.y);
-        x * self.radial.x + y * self.radial.y
-    }
-
-    /// Signed distance of a point from the plane.
-    #[inline]
-    pub fn beside(&self, point: DVec3) -> f64 {
-        let (x, y) = (point.x - self.origin.x, point.y - self.origin.y);
-        y * self.radial.x - x * self.radial.y
-    }
-
-    /// The point of the plane at distance r and height z.
-    #[inline]
-    pub fn point(&self, r: f64, z: f64) -> DVec3 {
-        DVec3::new(self.origin.x + r * self.radial.x, self.origin.y + r * self.radial.y, z)
-    }
-}
-
-/// What is left of a flat polygon in a radial plane: a line from (r, z) = `start` to `end`, start.x <= end.x.
-#[derive(Clone, Copy, Debug)]
-pub struct Segment {
-    pub start: DVec2,
-    pub end: DVec2,
-}
-
-/// Cuts a convex polygon with a radial plane. An edge is cut where its ends lie on different sides, an end on the
-/// plane counting as on the positive one, and its cut depends on nothing but the edge: neighbours share it exactly.
-#[inline]
-pub fn cut<const N: usize>(plane: &RadialPlane, corners: [&DVec3; N]) -> Option<Segment> {
-    let beside = corners.map(|&corner| plane.beside(corner));
-    // A bit a corner: whether it lies on the positive side; then a bit an edge: whether its ends differ. No branches,
-    // for none could be foreseen.
-    let positive = (0..N).fold(0u32, |bits, i| bits | u32::from(beside[i] >= 0.0) << i);
-    let crossing = positive ^ (positive >> 1 | (positive & 1) << (N - 1));
-    let but_first = crossing & crossing.wrapping_sub(1);
-    if but_first == 0 || but_first & (but_first - 1) != 0 {
-        return None;
-    }
-    let first = crossing.trailing_zeros() as usize;
-    let last = but_first.trailing_zeros() as usize;
-    let cuts = [first, last].map(|i| {
-        let j = if i + 1 == N { 0 } else { i + 1 };
-        let (low, high) = if beside[i] < 0.0 { (i, j) } else { (j, i) };
-        let share = beside[low] / (beside[low] - beside[high]);
-        let (from, to) = (corners[low], corners[high]);
-        let (r0, r1) = (plane.along(*from), plane.along(*to));
-        DVec2::new(r0 + share * (r1 - r0), from.z + share * (to.z - from.z))
-    });
-    let [start, end] = if cuts[0].x <= cuts[1].x { cuts } else { [cuts[1], cuts[0]] };
-    Some(Segment { start, end })
-}
+closed_set!(Sphere, Rectangle, Plane);

@@ -2,8 +2,11 @@
 
 use glam::DVec3;
 
-use super::triangle::affine_coordinates;
-use super::{RadialPlane, Segment, cut};
+use super::affine::affine_coordinates;
+use super::geometry::{Bounds, Geometry};
+use crate::optics::crossing::{Crossing, Range, meet_segment};
+use crate::optics::path::Path;
+use crate::optics::radial_plane::RadialPlane;
 use crate::ray::Ray;
 
 /// P + u U + v V, 0 <= u, v <= 1.
@@ -15,19 +18,28 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    pub fn corners(&self) -> [DVec3; 4] {
+    fn corners(&self) -> [DVec3; 4] {
         let (p, u, v) = (self.point, self.u, self.v);
         [p, p + u, p + u + v, p + v]
     }
+}
 
-    pub fn normal(&self) -> DVec3 {
-        self.u.cross(self.v)
+impl Geometry for Rectangle {
+    fn bounds(&self) -> Bounds {
+        let area = self.u.cross(self.v).length_squared();
+        if area > 0.0 && area < f64::INFINITY && self.point.is_finite() {
+            Bounds::about(&self.corners())
+        } else {
+            Bounds::Nowhere
+        }
     }
 
-    /// Distance along the ray, by eq. 3.4, 3.7 and 3.8.
-    #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        let normal = self.normal();
+    /// By eq. 3.4, 3.7 and 3.8.
+    fn meet(&self, ray: &Ray, own: bool) -> Option<f64> {
+        if own {
+            return None;
+        }
+        let normal = self.u.cross(self.v);
         let slant = ray.direction.dot(normal);
         let to_point = self.point - ray.origin;
         let t = to_point.dot(normal) / slant;
@@ -40,11 +52,15 @@ impl Rectangle {
     }
 
     #[inline]
-    pub fn cut(&self, plane: &RadialPlane) -> Option<Segment> {
-        cut(plane, self.corners().each_ref())
+    fn meet_curve(&self, plane: &RadialPlane, path: &mut Path, range: &mut Range) -> Option<Crossing> {
+        meet_segment(path, &plane.cut(self.corners().each_ref())?, range)
     }
 
-    pub fn uv(&self, point: DVec3) -> (f64, f64) {
-        affine_coordinates(self.point, self.u, self.v, point)
+    fn normal(&self, _point: DVec3) -> DVec3 {
+        self.u.cross(self.v).normalize_or_zero()
+    }
+
+    fn uv(&self, point: DVec3) -> Option<(f64, f64)> {
+        Some(affine_coordinates(self.point, self.u, self.v, point))
     }
 }

@@ -2,7 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::RadialPlane;
+use super::geometry::{Bounds, Geometry};
+use crate::optics::crossing::{Crossing, Range, meet_circle};
+use crate::optics::path::Path;
+use crate::optics::radial_plane::{Circle, RadialPlane};
 use crate::ray::Ray;
 use crate::within::within;
 
@@ -16,18 +19,31 @@ pub struct Sphere {
     pub equator: DVec3,
 }
 
-/// What is left of a sphere in a radial plane: a circle about (r, z).
-#[derive(Clone, Copy, Debug)]
-pub struct Circle {
-    pub center: DVec2,
-    pub radius: f64,
+impl Sphere {
+    /// The circle that a radial plane cuts out: r_c^2 = r_s^2 - d^2.
+    fn cut(&self, plane: &RadialPlane) -> Option<Circle> {
+        let d = plane.beside(self.center);
+        let radius_squared = (self.radius - d) * (self.radius + d);
+        (radius_squared > 0.0).then(|| Circle {
+            center: DVec2::new(plane.along(self.center), self.center.z),
+            radius: radius_squared.sqrt(),
+        })
+    }
 }
 
-impl Sphere {
+impl Geometry for Sphere {
+    fn bounds(&self) -> Bounds {
+        if self.center.is_finite() && self.radius > 0.0 && self.radius < f64::INFINITY {
+            let reach = DVec3::splat(self.radius);
+            Bounds::Box { low: self.center - reach, high: self.center + reach }
+        } else {
+            Bounds::Nowhere
+        }
+    }
+
     /// Nearest distance at which the ray enters or leaves: t = D.R -+ sqrt(r^2 - d^2), R = P - O. A ray that only
-    /// grazes does not hit. One that starts on this sphere (`own`) can meet only its other side, at 2 D.R.
-    #[inline]
-    pub fn intersect(&self, ray: &Ray, own: bool) -> Option<f64> {
+    /// grazes does not hit. One that starts on this sphere can meet only its other side, at 2 D.R.
+    fn meet(&self, ray: &Ray, own: bool) -> Option<f64> {
         let to_center = self.center - ray.origin;
         let along = to_center.dot(ray.direction);
         if own {
@@ -51,27 +67,20 @@ impl Sphere {
         }
     }
 
-    /// The circle that a radial plane cuts out: r_c^2 = r_s^2 - d^2.
-    #[inline]
-    pub fn cut(&self, plane: &RadialPlane) -> Option<Circle> {
-        let d = plane.beside(self.center);
-        let radius_squared = (self.radius - d) * (self.radius + d);
-        (radius_squared > 0.0).then(|| Circle {
-            center: DVec2::new(plane.along(self.center), self.center.z),
-            radius: radius_squared.sqrt(),
-        })
+    fn meet_curve(&self, plane: &RadialPlane, path: &mut Path, range: &mut Range) -> Option<Crossing> {
+        meet_circle(path, &self.cut(plane)?, range)
     }
 
-    pub fn normal(&self, point: DVec3) -> DVec3 {
+    fn normal(&self, point: DVec3) -> DVec3 {
         (point - self.center).normalize_or_zero()
     }
 
     /// u from the north pole (0) to the south pole (1), v counter-clockwise from the equator vector, in turns.
-    pub fn uv(&self, point: DVec3) -> (f64, f64) {
+    fn uv(&self, point: DVec3) -> Option<(f64, f64)> {
         let normal = self.normal(point);
         let u = within(normal.dot(self.pole), -1.0, 1.0).acos() / std::f64::consts::PI;
         let east = self.pole.cross(self.equator);
         let turn = normal.dot(east).atan2(normal.dot(self.equator)) / std::f64::consts::TAU;
-        (u, if turn < 0.0 { turn + 1.0 } else { turn })
+        Some((u, if turn < 0.0 { turn + 1.0 } else { turn }))
     }
 }

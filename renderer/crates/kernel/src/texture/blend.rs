@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::Spot;
+use super::spot::Spot;
 use super::tint::Tint;
 use crate::within::within;
 

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::color_range::{ColorRange, color_at};
 use super::placement::Placement;
+use super::spot::{Skin, Spot};
 use super::squeeze::Squeeze;
-use super::{Skin, Spot};
 use crate::noise::{noise_and_gradient, octave};
 use crate::within::within;
 

@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use super::Spot;
 use super::placement::Placement;
+use super::spot::Spot;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Checker {

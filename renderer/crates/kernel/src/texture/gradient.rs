@@ -7,9 +7,9 @@
 
 use glam::DVec3;
 
-use super::Spot;
 use super::heights::Heights;
 use super::placement::Placement;
+use super::spot::Spot;
 use super::tint::Tint;
 use crate::noise::fractal;
 

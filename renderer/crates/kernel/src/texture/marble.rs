@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::Spot;
 use super::placement::Placement;
+use super::spot::Spot;
 use super::squeeze::Squeeze;
 use super::tint::Tint;
 use crate::noise::turbulence;

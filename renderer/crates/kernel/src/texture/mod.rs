@@ -17,14 +17,13 @@ pub mod marble;
 pub mod placement;
 pub mod ripples;
 pub mod snow;
+pub mod spot;
 pub mod spotted;
 pub mod squeeze;
 pub mod tint;
 pub mod wave;
 pub mod waves;
 pub mod wood;
-
-use glam::DVec3;
 
 use blend::Blend;
 use bumps::Bumps;
@@ -35,27 +34,9 @@ use granite::Granite;
 use marble::Marble;
 use ripples::Ripples;
 use snow::Snow;
+use spot::{Skin, Spot};
 use spotted::Spotted;
 use wood::Wood;
-
-/// A point of a surface, as textures see it.
-#[derive(Clone, Copy, Debug)]
-pub struct Spot {
-    /// World position.
-    pub point: DVec3,
-    /// Within which each of its coordinates is known.
-    pub uncertainty: f64,
-    /// u and v of the primitive, 0..1; a plane has none.
-    pub uv: Option<(f64, f64)>,
-}
-
-/// What textures change. Each takes it as the one before has left it.
-#[derive(Clone, Copy, Debug)]
-pub struct Skin {
-    pub color: DVec3,
-    /// Unit vector, on the side one sees.
-    pub normal: DVec3,
-}
 
 /// The closed set of textures. WAVES are ripples of other heights, UBLEND and VBLEND one blend.
 #[derive(Clone, Debug)]
@@ -74,8 +55,21 @@ pub enum Texture {
 }
 
 impl Texture {
+    /// Whether it asks for the u and v of a spot.
     pub fn needs_uv(&self) -> bool {
-        matches!(self, Texture::Blend(_))
+        match self {
+            Texture::Blend(_) => true,
+            Texture::Checker(_)
+            | Texture::Wood(_)
+            | Texture::Marble(_)
+            | Texture::Spotted(_)
+            | Texture::Granite(_)
+            | Texture::Clouds(_)
+            | Texture::Snow(_)
+            | Texture::Gradient(_)
+            | Texture::Bumps(_)
+            | Texture::Ripples(_) => false,
+        }
     }
 
     /// The skin with this texture on it.
@@ -95,13 +89,5 @@ impl Texture {
             Texture::Ripples(ripples) => Skin { color, normal: ripples.normal(normal, spot) },
             Texture::Blend(blend) => painted(blend.color(color, spot)),
         }
-    }
-}
-
-#[cfg(test)]
-impl Spot {
-    /// A point known exactly, of a shape without u and v.
-    pub fn at(x: f64, y: f64, z: f64) -> Self {
-        Self { point: DVec3::new(x, y, z), uncertainty: 0.0, uv: None }
     }
 }

@@ -3,7 +3,7 @@
 
 use glam::{DMat3, DMat4, DVec3};
 
-use super::Spot;
+use super::spot::Spot;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {

@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use super::Spot;
 use super::placement::Placement;
+use super::spot::Spot;
 use super::wave::Wave;
 
 #[derive(Clone, Debug)]

@@ -8,9 +8,9 @@
 
 use glam::DVec3;
 
-use super::Spot;
 use super::heights::Heights;
 use super::placement::Placement;
+use super::spot::Spot;
 use crate::noise::fractal;
 
 /// Within which the coordinates of a normal are known.

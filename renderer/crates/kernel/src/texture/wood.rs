@@ -9,8 +9,8 @@
 
 use glam::DVec3;
 
-use super::Spot;
 use super::placement::Placement;
+use super::spot::Spot;
 use super::squeeze::Squeeze;
 use super::tint::Tint;
 use crate::noise::{cubic, fractal};

@@ -1,14 +1,13 @@
 //! What a picture can hold beside its colours: for each pixel, what the ray through its middle came upon.
 
 use crate::camera::Camera;
-use crate::scene::{Owner, Shapes};
-
-use crate::render::Sight;
+use crate::shapes::{Owner, Shapes};
+use crate::sight::Sight;
 
 /// One kind of extra output. Each value is a number a channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Layer {
+pub enum Output {
     /// Distance along the direction of view; infinite where nothing is met.
     Depth,
     /// The unit vector that shades, as the shape has it: before textures and FUZZ.
@@ -24,15 +23,15 @@ pub enum Layer {
     Path,
 }
 
-impl Layer {
-    pub const ALL: [(&'static str, Layer); 7] = [
-        ("depth", Layer::Depth),
-        ("normal", Layer::Normal),
-        ("position", Layer::Position),
-        ("solid", Layer::Solid),
-        ("primitive", Layer::Primitive),
-        ("uv", Layer::Uv),
-        ("path", Layer::Path),
+impl Output {
+    pub const ALL: [(&'static str, Output); 7] = [
+        ("depth", Output::Depth),
+        ("normal", Output::Normal),
+        ("position", Output::Position),
+        ("solid", Output::Solid),
+        ("primitive", Output::Primitive),
+        ("uv", Output::Uv),
+        ("path", Output::Path),
     ];
 
     pub fn named(name: &str) -> Option<Self> {
@@ -41,32 +40,32 @@ impl Layer {
 
     pub fn channels(self) -> usize {
         match self {
-            Layer::Depth | Layer::Solid | Layer::Primitive => 1,
-            Layer::Uv | Layer::Path => 2,
-            Layer::Normal | Layer::Position => 3,
+            Output::Depth | Output::Solid | Output::Primitive => 1,
+            Output::Uv | Output::Path => 2,
+            Output::Normal | Output::Position => 3,
         }
     }
 
-    /// Writes the layer's channels to the front of `out`.
+    /// Writes the output's channels to the front of `out`.
     pub fn write(self, sight: &Sight, camera: &Camera, shapes: &Shapes, out: &mut [f32]) {
         let met = sight.arrival.shape();
         let part = met.map(|(shape, ..)| shapes.part(shape));
         let values: [f64; 3] = match self {
-            Layer::Depth => [met.map_or(f64::INFINITY, |(_, point, _)| camera.depth(point)), 0.0, 0.0],
-            Layer::Normal => met.map_or([0.0; 3], |(shape, point, direction)| {
+            Output::Depth => [met.map_or(f64::INFINITY, |(_, point, _)| camera.depth(point)), 0.0, 0.0],
+            Output::Normal => met.map_or([0.0; 3], |(shape, point, direction)| {
                 shapes.normals(shape, point, direction).shading.to_array()
             }),
-            Layer::Position => met.map_or([0.0; 3], |(_, point, _)| point.to_array()),
-            Layer::Solid => match part.map(|part| part.owner) {
-                Some(Owner::Solid(row)) => [row as f64, 0.0, 0.0],
+            Output::Position => met.map_or([0.0; 3], |(_, point, _)| point.to_array()),
+            Output::Solid => match part.map(|part| part.owner) {
+                Some(Owner::Solid(row)) => [f64::from(row), 0.0, 0.0],
                 Some(Owner::Light(_)) | None => [-1.0, 0.0, 0.0],
             },
-            Layer::Primitive => [part.map_or(-1.0, |part| part.primitive as f64), 0.0, 0.0],
-            Layer::Uv => {
+            Output::Primitive => [part.map_or(-1.0, |part| f64::from(part.primitive)), 0.0, 0.0],
+            Output::Uv => {
                 let uv = met.and_then(|(shape, point, _)| shapes.uv(shape, point));
                 uv.map_or([-1.0, -1.0, 0.0], |(u, v)| [u, v, 0.0])
             }
-            Layer::Path => {
+            Output::Path => {
                 let length = if met.is_some() { sight.arrival.length() } else { f64::INFINITY };
                 [length, sight.arcs as f64, 0.0]
             }

@@ -206,7 +206,7 @@ def test_crates_stand_one_upon_another(crate: Path) -> None:
     assert tomllib.loads((crate / "Cargo.toml").read_text())["dependencies"].keys() <= MAY_DEPEND[crate.name]
 
 
-ROOMS = ("text", "diagnostics", "syntax", "meaning", "ir")
+ROOMS = ("text", "columns", "diagnostics", "syntax", "meaning", "ir")
 """The compiler's folders from the ground up: each imports from those before it alone."""
 
 

@@ -14,7 +14,6 @@ import m3dc
 from m3d_language.table import LANGUAGE
 from m3dc.diagnostics.catalogue import CATALOGUE
 from m3dc.ir import PrimitiveKind
-from m3dc.meaning.effects import ENDLESS as WITHOUT_END
 from m3dc.meaning.effects import NEEDS, RULES
 
 DIAGNOSTICS = Path(__file__).parent / "compiler/diagnostics"
@@ -55,7 +54,6 @@ def test_without_it_the_picture_is_the_same(text: str) -> None:
 
 def test_all_textures_and_primitives_are_known() -> None:
     assert NEEDS.keys() == set(TEXTURES)
-    assert {PrimitiveKind[keyword] for keyword in WITHOUT_END} == ENDLESS
     for block, rules in RULES.items():
         for rule in rules:
             assert rule.keywords.keys() <= LANGUAGE.blocks[block].statements.keys()

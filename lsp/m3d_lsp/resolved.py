@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from m3dc.ir import PRIMITIVE_TABLE, Extent, PrimitiveKind, SceneIR
+from m3dc.ir import Extent, PrimitiveKind, SceneIR
 from m3dc.ir.lower import lower, view
 from m3dc.meaning.evaluate import World
+from m3dc.meaning.primitive import Fact, primitive_of
 from m3dc.meaning.transform import IDENTITY, Transform, unit
 from m3dc.meaning.values import Record
 from m3dc.text.places import Places
@@ -71,20 +72,20 @@ def _where(here: Standing) -> str:
 def _primitive(here: Standing, record: Record) -> str:
     transform = here.whole.transform if len(here.records) > 1 else IDENTITY
     ir = _alone(record, transform, here.places)
-    lines: list[str] = []
-    kind = PrimitiveKind[record.block]
-    rows = ir[PRIMITIVE_TABLE[kind]]
-    if kind is PrimitiveKind.SPHERE:
-        lines.append(f"centre `{vector(rows['center'][0])}`, radius `{number(rows['radius'][0])}`")
-    elif kind in (PrimitiveKind.POLYGONS, PrimitiveKind.TERRAIN):
-        lines.append(f"{int(rows['vertex_count'][0])} vertices, {int(rows['facet_count'][0])} facets")
-    else:
-        p, u, v = (rows[column][0] for column in ("point", "u", "v"))
-        lines.append(f"corners `{vector(p + v)}`, `{vector(p)}`, `{vector(p + u)}`")
-        lines.append(f"normal `{vector(unit(rows['normal'][0]))}`")
+    lines = [", ".join(map(_fact, line)) for line in primitive_of(record).facts(ir.tables, 0)]
     lines += _extent(ir.scene.extent)
     where = "In the scene" if here.made.value is None else "With its transform"
     return f"{where}:\n\n" + _list(lines) + _matrix(in_scene(here))
+
+
+def _fact(fact: Fact) -> str:
+    """Such as "radius `2`", or "8 vertices"."""
+    shown: list[str] = []
+    for value in fact.values:
+        if isinstance(value, int):
+            return f"{value} {fact.what}"
+        shown.append(f"`{number(value) if isinstance(value, float) else vector(value)}`")
+    return f"{fact.what} {', '.join(shown)}"
 
 
 def _object(here: Standing, record: Record) -> str:

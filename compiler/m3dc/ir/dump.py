@@ -6,14 +6,15 @@ colour ranges, waves) follows its style. Objects come last defined first.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..meaning.primitive import PRIMITIVES, Field, Listing
 from ..text.span import Span
 from .scene import SceneIR
-from .tables import PRIMITIVE_TABLE, LightKind, PrimitiveKind, TextureKind, Triple
+from .tables import LightKind, PrimitiveKind, TextureKind, Triple
 
 LABEL_WIDTH = 26
 INDENT = "  "
@@ -279,46 +280,24 @@ def _primitives(ir: SceneIR, table: str, owner: int, most_rows: int | None) -> I
 
 
 def _shape(ir: SceneIR, kind: PrimitiveKind, row: int, most_rows: int | None) -> Iterator[str]:
-    shape = {name: column[row] for name, column in ir[PRIMITIVE_TABLE[kind]].items()}
-    if kind is PrimitiveKind.SPHERE:
-        yield _field("Radius", float(shape["radius"]))
-        yield from _triple("Center", shape["center"])
-        yield from _triple("North Pole", shape["pole"])
-        yield from _triple("Equator", shape["equator"])
-    elif "phong" in shape:
-        yield from _mesh(ir, shape, most_rows)
-    else:
-        point, u, v = shape["point"], shape["u"], shape["v"]
-        yield from _triple("Reference P", point)
-        yield from _triple("U vector", u)
-        yield from _triple("V vector", v)
-        yield from _triple("Normal", shape["normal"])
-        if kind is not PrimitiveKind.PLANE:
-            yield from _triple("V1", point + v)
-            yield from _triple("V3", point + u)
-        if kind is PrimitiveKind.RECTANGLE:
-            yield from _triple("V4", point + u + v)
+    for said in PRIMITIVES[kind].dump(ir.tables, row, most_rows):
+        match said:
+            case Field(label, bool(value)):
+                yield _field(label, _yes(value))
+            case Field(label, float(value)):
+                yield _field(label, value)
+            case Field(label, value):
+                yield from _triple(label, value)
+            case Listing(label, total, first):
+                yield _field(label, total)
+                for number, (values, below) in enumerate(first):
+                    yield f"{INDENT}{number}\t{_tabbed(values)}"
+                    yield from (f"{INDENT * 2}\t{_tabbed(line)}" for line in below)
+                yield from _more(total - len(first))
 
 
-def _mesh(ir: SceneIR, mesh: dict[str, Any], most_rows: int | None) -> Iterator[str]:
-    first, count = int(mesh["first_vertex"]), int(mesh["vertex_count"])
-    shown = count if most_rows is None else min(count, most_rows)
-    yield _field("Phong", _yes(mesh["phong"]))
-    yield _field("Number vertices", count)
-    for number, (x, y, z) in enumerate(ir["vertices"]["position"][first : first + shown].tolist()):
-        yield f"{INDENT}{number}\t{x + 0.0:f}\t{y + 0.0:f}\t{z + 0.0:f}"
-    yield from _more(count - shown)
-    facet, facets = int(mesh["first_facet"]), int(mesh["facet_count"])
-    shown = facets if most_rows is None else min(facets, most_rows)
-    yield _field("Number facets", facets)
-    corners = (ir["facets"]["vertex"][facet : facet + shown] - first).tolist()
-    normals = ir["facets"]["normal"][facet : facet + shown]
-    for number, (a, b, c) in enumerate(corners):
-        yield f"{INDENT}{number}\t{a}\t{b}\t{c}"
-        if mesh["phong"] and normals[number, 0] >= 0:
-            for x, y, z in ir["normals"]["direction"][normals[number]].tolist():
-                yield f"{INDENT * 2}\t{x + 0.0:f}\t{y + 0.0:f}\t{z + 0.0:f}"
-    yield from _more(facets - shown)
+def _tabbed(values: Sequence[float]) -> str:
+    return "\t".join(str(value) if isinstance(value, int) else f"{value + 0.0:f}" for value in values)
 
 
 def _more(rows: int) -> Iterator[str]:

@@ -4,62 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import ir
+from ..columns.rows import Rows
 from ..meaning.evaluate import World
-from ..meaning.transform import IDENTITY, Matrix, Transform, cosine_and_sine, unit
+from ..meaning.primitive import PRIMITIVES, PrimitiveKind
+from ..meaning.transform import Transform, clean, cosine_and_sine, unit
 from ..meaning.values import Record
 from ..text.places import Places
 from ..text.span import Placed, Span
-from .tables import LightKind, PrimitiveKind, TextureKind
-
-
-class _Rows:
-    """The tables of the IR while they grow: rows one by one, or columns of many rows at once."""
-
-    def __init__(self, places: Places) -> None:
-        self.places = places
-        self._rows: dict[str, list[dict[str, Any]]] = {table: [] for table in ir.TABLES}
-        self._chunks: dict[str, list[dict[str, NDArray[Any]]]] = {table: [] for table in ir.TABLES}
-        self._counts = dict.fromkeys(ir.TABLES, 0)
-
-    def add(self, table: str, **row: Any) -> int:
-        """Append a row; returns its number."""
-        self._rows[table].append(row)
-        self._counts[table] += 1
-        return self._counts[table] - 1
-
-    def extend(self, table: str, **columns: NDArray[Any]) -> int:
-        """Append many rows, a column each; returns the number of the first."""
-        first = self._counts[table]
-        self._chunks[table].append(columns)
-        self._counts[table] += len(next(iter(columns.values())))
-        return first
-
-    def count(self, table: str) -> int:
-        return self._counts[table]
-
-    def tables(self) -> dict[str, ir.Table]:
-        made: dict[str, ir.Table] = {}
-        for table, columns in ir.TABLES.items():
-            rows, chunks = self._rows[table], self._chunks[table]
-            if chunks:
-                made[table] = {
-                    name: _joined([np.asarray(chunk[name], column.dtype) for chunk in chunks])
-                    for name, column in columns.items()
-                }
-            else:
-                made[table] = {
-                    name: np.array([row[name] for row in rows], column.dtype).reshape(len(rows), *column.shape)
-                    for name, column in columns.items()
-                }
-            if "span" in columns:
-                made[table]["span"] = self.places.bytes(made[table]["span"])
-        return made
+from .tables import LightKind, TextureKind
 
 
 def _ends(placed: Placed) -> tuple[int, int]:
@@ -67,14 +24,10 @@ def _ends(placed: Placed) -> tuple[int, int]:
     return placed.start, placed.end
 
 
-def _joined(chunks: list[NDArray[Any]]) -> NDArray[Any]:
-    return chunks[0] if len(chunks) == 1 else np.concatenate(chunks)
-
-
 @np.errstate(all="ignore")  # of faulty records; what is not finite has been found before
 def lower(world: World, source: str, places: Places) -> ir.SceneIR:
     """The IR of a scene. Records that were found faulty may be in it; it is complete only where there is no error."""
-    rows = _Rows(places)
+    rows = Rows(ir.TABLES, places)
     for solid in world.solids:
         _solid(rows, solid)
     sun = -1
@@ -106,7 +59,7 @@ def _once(scene: Record) -> Iterator[tuple[str, Record]]:
 # --- objects ------------------------------------------------------------------------------------------------------
 
 
-def _solid(rows: _Rows, record: Record) -> None:
+def _solid(rows: Rows, record: Record) -> None:
     first = rows.count("primitives")
     number = rows.count("solids")
     for part in record.parts:
@@ -114,7 +67,7 @@ def _solid(rows: _Rows, record: Record) -> None:
     rows.add(
         "solids",
         transform=record.transform.matrix,
-        inverse=_clean(record.transform.inverse),
+        inverse=clean(record.transform.inverse),
         first_primitive=first,
         primitive_count=rows.count("primitives") - first,
         span=_ends(record.span),
@@ -122,7 +75,7 @@ def _solid(rows: _Rows, record: Record) -> None:
     _surface(rows, record.member("SURFACE"))
 
 
-def _light(rows: _Rows, record: Record) -> int:
+def _light(rows: Rows, record: Record) -> int:
     """A LIGHT, or the SUN of a sky."""
     first = rows.count("primitives")
     number = rows.count("lights")
@@ -144,14 +97,14 @@ def _light(rows: _Rows, record: Record) -> int:
         shadows=not source.flag("NOSHADOWS"),
         highlights=not source.flag("NOSPECULAR"),
         transform=record.transform.matrix,
-        inverse=_clean(record.transform.inverse),
+        inverse=clean(record.transform.inverse),
         first_primitive=first,
         primitive_count=rows.count("primitives") - first,
         span=_ends(record.span),
     )
 
 
-def _surface(rows: _Rows, record: Record) -> None:
+def _surface(rows: Rows, record: Record) -> None:
     first = rows.count("textures")
     textures = record.nested.get("TEXTURE")
     for texture in textures.parts if textures else ():
@@ -193,7 +146,7 @@ def beckmann_maximum(rough: float) -> float:
     return (2.0 * square) ** 2 * math.exp(-(2.0 * square - 1.0) / square) / square
 
 
-def _texture(rows: _Rows, record: Record) -> None:
+def _texture(rows: Rows, record: Record) -> None:
     first_range, first_wave = rows.count("color_ranges"), rows.count("waves")
     colors = record.tables.get("COLORS")
     if colors is not None:
@@ -227,7 +180,7 @@ def _texture(rows: _Rows, record: Record) -> None:
         slope=record.number("SLOPE"),
         elevation=record.number("ELEVATION"),
         transform=record.transform.matrix,
-        inverse=_clean(record.transform.inverse),
+        inverse=clean(record.transform.inverse),
         first_color_range=first_range,
         color_range_count=rows.count("color_ranges") - first_range,
         first_wave=first_wave,
@@ -239,91 +192,26 @@ def _texture(rows: _Rows, record: Record) -> None:
 # --- primitives ---------------------------------------------------------------------------------------------------
 
 
-def _primitive(rows: _Rows, record: Record, parent: Transform, *, solid: int = -1, light: int = -1) -> None:
+def _primitive(rows: Rows, record: Record, parent: Transform, *, solid: int = -1, light: int = -1) -> None:
     kind = PrimitiveKind[record.block]
-    transform = record.transform.then(parent)
-    if kind is PrimitiveKind.SPHERE:
-        row = _sphere(rows, record, transform)
-    elif kind in (PrimitiveKind.POLYGONS, PrimitiveKind.TERRAIN):
-        row = _mesh(rows, record, transform)
-    else:
-        row = _planar(rows, record, transform, ir.PRIMITIVE_TABLE[kind])
     rows.add(
         "primitives",
         kind=kind,
-        row=row,
+        row=PRIMITIVES[kind].lower(rows, record, record.transform.then(parent)),
         solid=solid,
         light=light,
         transform=record.transform.matrix,
-        inverse=_clean(record.transform.inverse),
+        inverse=clean(record.transform.inverse),
         span=_ends(record.span),
     )
 
 
-def _sphere(rows: _Rows, record: Record, transform: Transform) -> int:
-    if transform is IDENTITY:
-        return rows.add(
-            "spheres",
-            center=record.vector("CENTER"),
-            radius=record.number("RADIUS"),
-            pole=(0.0, 0.0, 1.0),
-            equator=(1.0, 0.0, 0.0),
-        )
-    pole, x = unit(transform.ways(np.array([0.0, 0.0, 1.0]))), transform.ways(np.array([1.0, 0.0, 0.0]))
-    return rows.add(
-        "spheres",
-        center=transform.points(np.array(record.vector("CENTER"))),
-        radius=record.number("RADIUS") * transform.length(),
-        pole=_clean(pole),
-        equator=_clean(unit(x - pole * (x @ pole))),
-    )
-
-
-def _planar(rows: _Rows, record: Record, transform: Transform, table: str) -> int:
-    first, second, third = (np.array(record.vector(f"VERTEX{n}")) for n in (1, 2, 3))
-    u, v = transform.vectors(third - second), transform.vectors(first - second)
-    return rows.add(table, point=transform.points(second), u=u, v=v, normal=_clean(np.cross(u, v)))
-
-
-def _mesh(rows: _Rows, record: Record, transform: Transform) -> int:
-    mesh = record.mesh
-    if mesh is None:
-        return rows.add("meshes", phong=False, first_vertex=0, vertex_count=0, first_facet=0, facet_count=0)
-    first_vertex = rows.extend("vertices", position=transform.points(mesh.vertices))
-    normal_rows = np.full(mesh.facets.shape, -1, np.int32)
-    if len(mesh.normals):
-        first_normal = rows.extend("normals", direction=transform.normals(mesh.normals))
-        normal_rows = mesh.normal_rows + np.int32(first_normal)
-    first_facet = rows.extend(
-        "facets",
-        vertex=mesh.facets + np.int32(first_vertex),
-        normal=normal_rows,
-        offset=mesh.offsets + np.uint32(rows.places.absolute(mesh.table).start),
-    )
-    return rows.add(
-        "meshes",
-        phong=record.flag("PHONG"),
-        first_vertex=first_vertex,
-        vertex_count=len(mesh.vertices),
-        first_facet=first_facet,
-        facet_count=len(mesh.facets),
-    )
-
-
 def _extent(tables: dict[str, ir.Table]) -> ir.Extent | None:
-    spheres, corners = tables["spheres"], [tables["vertices"]["position"]]
-    for table in ("triangles", "rectangles"):
-        point, u, v = (tables[table][column] for column in ("point", "u", "v"))
-        corners += [point, point + u, point + v]
-    rectangles = tables["rectangles"]
-    corners.append(rectangles["point"] + rectangles["u"] + rectangles["v"])
-    radius = spheres["radius"][:, None]
-    corners += [spheres["center"] - radius, spheres["center"] + radius]
-    occupied = [points for points in corners if len(points)]
-    if not occupied:
+    points = [some for primitive in PRIMITIVES.values() for some in primitive.extent(tables) if len(some)]
+    if not points:
         return None
-    lowest = [min(float(points[:, axis].min()) for points in occupied) for axis in range(3)]
-    highest = [max(float(points[:, axis].max()) for points in occupied) for axis in range(3)]
+    lowest = [min(float(some[:, axis].min()) for some in points) for axis in range(3)]
+    highest = [max(float(some[:, axis].max()) for some in points) for axis in range(3)]
     return ir.Extent(_triple(np.array(lowest)), _triple(np.array(highest)))
 
 
@@ -407,11 +295,6 @@ def view(record: Record) -> ir.View:
         reference_point=_triple(eye + normal * distance),
         distance=distance,
     )
-
-
-def _clean(matrix: Matrix) -> Matrix:
-    """Without negative zeros."""
-    return matrix + 0.0
 
 
 def _triple(vector: NDArray[np.float64]) -> ir.Triple:

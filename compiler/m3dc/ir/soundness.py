@@ -1,4 +1,4 @@
-"""Whether an IR is what ir.py says it is: every number within its bounds, every row that is named there.
+"""Whether an IR is what tables.py says it is: every number within its bounds, every row that is named there.
 
 A renderer need not look at what has passed. What `compile` makes without an error passes; of a file nobody knows.
 """

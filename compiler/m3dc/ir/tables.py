@@ -9,7 +9,6 @@ of bytes of the source text that they came from.
 Rows of one table that belong to a row of another are consecutive, named by a `first_...` and a `..._count` column.
 """
 
-import math
 from collections.abc import Mapping
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias
@@ -17,23 +16,12 @@ from typing import Annotated, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_language.table import LANGUAGE
-
+from ..columns.column import NOT_NEGATIVE, POSITION, SHARE, UNIT, Column, Within, consecutive, matrices
+from ..meaning.primitive import PRIMITIVES, PrimitiveKind
 from ..text.span import Span
 
 Triple: TypeAlias = tuple[float, float, float]
 Table: TypeAlias = dict[str, NDArray[Any]]
-
-
-class PrimitiveKind(IntEnum):
-    """What a row of `primitives` is, and so which table its `row` points into."""
-
-    SPHERE = 0
-    PLANE = 1
-    TRIANGLE = 2
-    RECTANGLE = 3
-    POLYGONS = 4
-    TERRAIN = 5
 
 
 class TextureKind(IntEnum):
@@ -61,113 +49,53 @@ class LightKind(IntEnum):
     POINT = 1
 
 
-PRIMITIVE_TABLE = {
-    PrimitiveKind.SPHERE: "spheres",
-    PrimitiveKind.PLANE: "planes",
-    PrimitiveKind.TRIANGLE: "triangles",
-    PrimitiveKind.RECTANGLE: "rectangles",
-    PrimitiveKind.POLYGONS: "meshes",
-    PrimitiveKind.TERRAIN: "meshes",
-}
+PRIMITIVE_TABLE = {kind: primitive.table for kind, primitive in PRIMITIVES.items()}
+"""The table that the `row` of a row of `primitives` points into, by its kind."""
 
 
-class Within(NamedTuple):
-    """The values that a number may have; `infinite` is whether it may be infinite, too."""
-
-    least: float = -math.inf
-    most: float = math.inf
-    infinite: bool = False
-
-
-_ANY = Within()
-_SHARE = Within(0.0, 1.0)
-_NOT_NEGATIVE = Within(0.0)
-_FARTHEST = float(LANGUAGE.limits["reach"])
-_PLACE = Within(-_FARTHEST, _FARTHEST)
-_UNIT = Within(-1.0 - 1e-9, 1.0 + 1e-9)
-
-
-class Column(NamedTuple):
-    """One column of a table: `dtype`, the shape of one entry, what it means, and what values it may have.
-
-    It may hold numbers of rows of another table, `row_of`; or -1 for none where that is `optional`.
-    """
-
-    dtype: str
-    shape: tuple[int, ...]
-    says: str
-    within: Within = _ANY
-    row_of: str = ""
-    optional: bool = False
-
-
-def _rows(noun: str, table: str, order: str = "") -> dict[str, Column]:
-    """The columns that name consecutive rows of another table."""
-    return {
-        f"first_{noun}": Column("i4", (), f"its first row in {table}{order}", _NOT_NEGATIVE),
-        f"{noun}_count": Column("i4", (), f"how many rows of {table} it has", _NOT_NEGATIVE, table),
-    }
-
-
-def _matrices(of: str) -> dict[str, Column]:
-    return {
-        "transform": Column("f8", (4, 4), f"matrix of the {of}"),
-        "inverse": Column("f8", (4, 4), "its inverse"),
-    }
-
-
-def _planar(what: str) -> dict[str, Column]:
-    return {
-        "point": Column("f8", (3,), "P, the reference point: VERTEX2", _PLACE),
-        "u": Column("f8", (3,), "U, from VERTEX2 to VERTEX3"),
-        "v": Column("f8", (3,), "V, from VERTEX2 to VERTEX1"),
-        "normal": Column("f8", (3,), f"U x V, the normal of the {what}, not normalised"),
-    }
-
-
-_SPAN = {"span": Column("i8", (2,), "first byte and end byte in the source", _NOT_NEGATIVE)}
+_SPAN = {"span": Column("i8", (2,), "first byte and end byte in the source", NOT_NEGATIVE)}
 
 TABLES: Mapping[str, Mapping[str, Column]] = {
     "solids": {
-        **_matrices("object"),
-        **_rows("primitive", "primitives"),
+        **matrices("object"),
+        **consecutive("primitive", "primitives"),
         **_SPAN,
     },
     "surfaces": {  # one row a solid, same row number
-        "color": Column("f8", (3,), "diffuse colour O_d, RGB, 0..1", _SHARE),
-        "ambient": Column("f8", (), "ambient reflectance k_a, 0..1", _SHARE),
-        "diffuse": Column("f8", (), "diffuse reflectance k_d = 1 - SPECULAR", _SHARE),
-        "specular": Column("f8", (), "specular reflectance k_s, 0..1", _SHARE),
+        "color": Column("f8", (3,), "diffuse colour O_d, RGB, 0..1", SHARE),
+        "ambient": Column("f8", (), "ambient reflectance k_a, 0..1", SHARE),
+        "diffuse": Column("f8", (), "diffuse reflectance k_d = 1 - SPECULAR", SHARE),
+        "specular": Column("f8", (), "specular reflectance k_s, 0..1", SHARE),
         "refindex": Column("f8", (), "refractive index, 1 or more", Within(1.0)),
-        "rough": Column("f8", (), "Beckmann roughness r, 0..1", _SHARE),
-        "hard": Column("f8", (), "hardness k_h, 0..1", _SHARE),
-        "metallic": Column("f8", (), "metallic m, 0..1", _SHARE),
-        "fuzz": Column("f8", (), "random deviation of the normal, 0..1", _SHARE),
-        "fresnel": Column("f8", (), "reflectance at normal incidence, ((n-1)/(n+1))^2", _SHARE),
+        "rough": Column("f8", (), "Beckmann roughness r, 0..1", SHARE),
+        "hard": Column("f8", (), "hardness k_h, 0..1", SHARE),
+        "metallic": Column("f8", (), "metallic m, 0..1", SHARE),
+        "fuzz": Column("f8", (), "random deviation of the normal, 0..1", SHARE),
+        "fresnel": Column("f8", (), "reflectance at normal incidence, ((n-1)/(n+1))^2", SHARE),
         "beckmann": Column(
             "f8", (), "largest value of the Beckmann term, by which it is divided", Within(0.0, infinite=True)
         ),
-        **_rows("texture", "textures", ", in the order they apply"),
+        **consecutive("texture", "textures", ", in the order they apply"),
     },
     "textures": {
         "kind": Column("i4", (), "TextureKind", Within(0, max(TextureKind))),
         "local": Column("?", (), "tracks its object: applied in object coordinates"),
-        "color": Column("f8", (3,), "texture colour, RGB, 0..1", _SHARE),
+        "color": Column("f8", (3,), "texture colour, RGB, 0..1", SHARE),
         "turbulence": Column("f8", (), "TURBULENCE"),
         "squeeze": Column("f8", (), "SQUEEZE"),
         "scale": Column("f8", (), "SCALE"),
         "slope": Column("f8", (), "SLOPE, degrees"),
         "elevation": Column("f8", (), "ELEVATION"),
-        **_matrices("texture"),
-        **_rows("color_range", "color_ranges"),
-        **_rows("wave", "waves"),
+        **matrices("texture"),
+        **consecutive("color_range", "color_ranges"),
+        **consecutive("wave", "waves"),
         **_SPAN,
     },
     "color_ranges": {
-        "start": Column("f8", (), "u, 0..1", _SHARE),
-        "end": Column("f8", (), "v, u < v <= 1", _SHARE),
-        "start_color": Column("f8", (3,), "colour at u, RGB, 0..1", _SHARE),
-        "end_color": Column("f8", (3,), "colour at v, RGB, 0..1", _SHARE),
+        "start": Column("f8", (), "u, 0..1", SHARE),
+        "end": Column("f8", (), "v, u < v <= 1", SHARE),
+        "start_color": Column("f8", (3,), "colour at u, RGB, 0..1", SHARE),
+        "end_color": Column("f8", (3,), "colour at v, RGB, 0..1", SHARE),
         **_SPAN,
     },
     "waves": {
@@ -181,56 +109,30 @@ TABLES: Mapping[str, Mapping[str, Column]] = {
     "lights": {
         "kind": Column("i4", (), "LightKind", Within(0, max(LightKind))),
         "sun": Column("?", (), "the light that SKY makes"),
-        "color": Column("f8", (3,), "RGB, 0..1", _SHARE),
+        "color": Column("f8", (3,), "RGB, 0..1", SHARE),
         "intensity": Column("f8", (), "factor of the colour"),
-        "attenuation": Column("f8", (), "exponent of the loss with distance", _NOT_NEGATIVE),
-        "exponent": Column("f8", (), "exponent of the cosine about the axis", _NOT_NEGATIVE),
+        "attenuation": Column("f8", (), "exponent of the loss with distance", NOT_NEGATIVE),
+        "exponent": Column("f8", (), "exponent of the cosine about the axis", NOT_NEGATIVE),
         "angle": Column(
             "f8", (), "half-angle of the cone it shines into, degrees, 0 < angle <= 180", Within(0.0, 180.0)
         ),
-        "position": Column("f8", (3,), "where a point light stands", _PLACE),
-        "direction": Column("f8", (3,), "where it shines to, unit vector", _UNIT),
+        "position": Column("f8", (3,), "where a point light stands", POSITION),
+        "direction": Column("f8", (3,), "where it shines to, unit vector", UNIT),
         "shadows": Column("?", (), "whether it casts shadows"),
         "highlights": Column("?", (), "whether it makes specular highlights"),
-        **_matrices("object"),
-        **_rows("primitive", "primitives"),
+        **matrices("object"),
+        **consecutive("primitive", "primitives"),
         **_SPAN,
     },
     "primitives": {
         "kind": Column("i4", (), "PrimitiveKind", Within(0, max(PrimitiveKind))),
-        "row": Column("i4", (), "its row in the table of its kind", _NOT_NEGATIVE),
+        "row": Column("i4", (), "its row in the table of its kind", NOT_NEGATIVE),
         "solid": Column("i4", (), "the row of the solid it belongs to, or -1", row_of="solids", optional=True),
         "light": Column("i4", (), "the row of the visible light it belongs to, or -1", row_of="lights", optional=True),
-        **_matrices("primitive"),
+        **matrices("primitive"),
         **_SPAN,
     },
-    "spheres": {
-        "center": Column("f8", (3,), "centre", _PLACE),
-        "radius": Column("f8", (), "radius", Within(0.0, _FARTHEST)),
-        "pole": Column("f8", (3,), "unit vector to the north pole, where u is 0", _UNIT),
-        "equator": Column("f8", (3,), "unit vector to where v is 0, at right angles to the pole", _UNIT),
-    },
-    "planes": _planar("plane"),
-    "triangles": _planar("triangle"),
-    "rectangles": _planar("rectangle"),
-    "meshes": {
-        "phong": Column("?", (), "normals are interpolated"),
-        **_rows("vertex", "vertices"),
-        **_rows("facet", "facets"),
-    },
-    "vertices": {
-        "position": Column("f8", (3,), "world position", _PLACE),
-    },
-    "facets": {
-        "vertex": Column("i4", (3,), "rows of its three corners in vertices", row_of="vertices"),
-        "normal": Column(
-            "i4", (3,), "rows of its three corners' normals in normals, or -1", row_of="normals", optional=True
-        ),
-        "offset": Column("u4", (), "byte of the source where it is written"),
-    },
-    "normals": {
-        "direction": Column("f8", (3,), "unit vector", _UNIT),
-    },
+    **{table: columns for primitive in PRIMITIVES.values() for table, columns in primitive.tables.items()},
     "profile": {
         "elevation": Column("f8", (), "height, m, increasing"),
         "temperature": Column("f8", (), "degrees Celsius"),
@@ -239,11 +141,11 @@ TABLES: Mapping[str, Mapping[str, Column]] = {
 }
 
 
-Amount: TypeAlias = Annotated[float, _NOT_NEGATIVE]
-Share: TypeAlias = Annotated[float, _SHARE]
-Color: TypeAlias = Annotated[Triple, _SHARE]
-Place: TypeAlias = Annotated[Triple, _PLACE]
-Direction: TypeAlias = Annotated[Triple, _UNIT]
+Amount: TypeAlias = Annotated[float, NOT_NEGATIVE]
+Share: TypeAlias = Annotated[float, SHARE]
+Color: TypeAlias = Annotated[Triple, SHARE]
+Place: TypeAlias = Annotated[Triple, POSITION]
+Direction: TypeAlias = Annotated[Triple, UNIT]
 Count: TypeAlias = Annotated[int, Within(0, 2**31 - 1)]
 Some: TypeAlias = Annotated[int, Within(1, 2**31 - 1)]
 Pixels: TypeAlias = Annotated[int, Within(1, 65535)]

@@ -143,5 +143,3 @@ NEEDS: dict[str, str] = {
     **dict.fromkeys(("UBLEND", "VBLEND"), "uv"),
     **dict.fromkeys(("SNOW", "GRADIENT"), "heights"),
 }
-# The primitives that have no end, and so no u, no v, and no part in the scene's extents.
-ENDLESS = {"PLANE"}

@@ -2,7 +2,7 @@
 
 An assignment copies. A block changes what is there (`KEY { ... }`), or replaces it by a copy of a variable and then
 changes that (`KEY name { ... }`); primitives, textures, waves and colour ranges are added. Most statements only store
-their value; those that do more have an entry in `MEANING`, and what must hold of a whole block one in `geometry.py`.
+their value; those that do more have an entry in `MEANING`, and what must hold of a whole block one in `finish.py`.
 """
 
 from __future__ import annotations

@@ -7,37 +7,24 @@ is False for a variable that is still being put together.
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import Protocol
 
 import numpy as np
 
 from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings, catalogue
-from . import mesh
+from .primitive import PRIMITIVES, Finish
 from .values import Record
-
-
-class Finish(Protocol):
-    def __call__(self, record: Record, findings: Findings, *, whole: bool) -> None: ...
 
 
 def _nothing(record: Record, findings: Findings, *, whole: bool) -> None:
     pass
 
 
-def _three_points(record: Record, findings: Findings, *, whole: bool) -> None:
-    first, second, third = (np.array(record.vector(f"VERTEX{n}")) for n in (1, 2, 3))
-    (ux, uy, uz), (vx, vy, vz) = third - second, first - second
-    if mesh.degenerate((ux, uy, uz), (vx, vy, vz)):
-        findings.add_at(catalogue.INVALID_VERTICES, record.span, "the three points must differ and not lie on one line")
-
-
 def _solid(record: Record, findings: Findings, *, whole: bool) -> None:
     if whole and not record.parts and not record.broken:
-        findings.add_at(
-            catalogue.NO_PRIMITIVES, record.span, "give it a SPHERE, PLANE, TRIANGLE, RECTANGLE, POLYGONS or TERRAIN"
-        )
+        *others, last = (kind.name for kind in PRIMITIVES)
+        findings.add_at(catalogue.NO_PRIMITIVES, record.span, f"give it a {', '.join(others)} or {last}")
 
 
 def _direction(record: Record, findings: Findings, *, whole: bool) -> None:
@@ -143,12 +130,8 @@ FINISH: defaultdict[str, Finish] = defaultdict(
         "MIRAGE": _mirage,
         "SUN": _direction,
         "SOURCE": _direction,
-        "PLANE": _three_points,
-        "TRIANGLE": _three_points,
-        "RECTANGLE": _three_points,
-        "POLYGONS": mesh.polygons,
-        "TERRAIN": mesh.terrain,
         "SOLID": _solid,
         **dict.fromkeys(LANGUAGE.blocks["TEXTURE"].holds, _texture),
+        **{kind.name: primitive.finish for kind, primitive in PRIMITIVES.items()},
     },
 )

@@ -21,9 +21,10 @@ from ..diagnostics import Findings, ItemFindings, catalogue
 from ..text.span import Base
 from . import program
 from .assignments import Usage, report_unused_values, usage
-from .effects import ENDLESS, NEEDS, Weighed, report_idle, report_unused_of_textures, weighed
+from .effects import NEEDS, Weighed, report_idle, report_unused_of_textures, weighed
 from .evaluate import World
 from .memo import Ledger, Steps
+from .primitive import Ball, Primitive, primitive_of
 from .transform import IDENTITY, Transform, unit
 from .units import Angle, angles, report_kelvin, report_radians
 from .values import Record
@@ -43,17 +44,17 @@ class _Facts(NamedTuple):
 
 
 class _Shape(NamedTuple):
-    """A primitive in the scene: its record, the transformation that takes it there, and a ball about it; of an endless
-    one that is a single point."""
+    """A primitive in the scene: its record, the transformation that takes it there, what is known of its kind, and a
+    ball about it."""
 
     record: Record
     transform: Transform
-    centre: NDArray[np.float64]
-    radius: float
+    kind: Primitive
+    ball: Ball
 
-    @property
-    def is_endless(self) -> bool:
-        return self.record.block in ENDLESS
+    def reaches_into(self, ball: Ball) -> bool:
+        """Whether it may have points within a ball."""
+        return self.kind.reaches_into(self.record, self.transform, self.ball, ball)
 
 
 class _Looked(NamedTuple):
@@ -106,9 +107,14 @@ def _lint_object(thing: Record, findings: Findings) -> _Looked:
     """Looks at an object by itself."""
     for look in OBJECT_LINTS:
         look(thing, findings)
-    shapes = [_Shape(part, transform, *_ball(part, transform)) for part, transform in _primitives(thing)]
+    shapes = [_shape(part, transform) for part, transform in _primitives(thing)]
     pieces = [*_statements(thing), *_blends(thing), *_normals(thing)]
     return _Looked(shapes, pieces)
+
+
+def _shape(part: Record, transform: Transform) -> _Shape:
+    kind = primitive_of(part)
+    return _Shape(part, transform, kind, kind.ball(part, transform))
 
 
 def _no_light(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -163,7 +169,7 @@ def _statements(thing: Record) -> Iterator[Weighed]:
 
 def _blends(thing: Record) -> Iterator[Weighed]:
     """UBLEND and VBLEND go by the u and v of primitives."""
-    blank = all(part.block in ENDLESS for part in thing.parts)
+    blank = all(primitive_of(part).is_endless for part in thing.parts)
     for texture in _textures(thing):
         if NEEDS[texture.block] == "uv":
             axis = "u" if texture.block == "UBLEND" else "v"
@@ -249,11 +255,11 @@ def _is_narrow(source: Record) -> bool:
 
 def _reaches(light: Record, source: Record, shape: _Shape) -> bool:
     """Whether the cone of a point light meets a primitive, or at least the ball about it."""
-    if shape.is_endless:
+    if shape.kind.is_endless:
         return True
     half_angle = min(source.number("ANGLE"), 90.0 if source.number("EXPONENT") > 0 else 180.0)
     axis = unit(light.transform.ways(np.array(source.vector("DIRECTION"))))
-    return _meets_cone(_position(light), axis, math.radians(half_angle), shape)
+    return _meets_cone(_position(light), axis, math.radians(half_angle), shape.ball)
 
 
 def _is_point(light: Record) -> bool:
@@ -265,30 +271,14 @@ def _position(light: Record) -> NDArray[np.float64]:
     return light.transform.points(np.array(light.member("SOURCE").vector("FROM")))
 
 
-def _meets_cone(apex: NDArray[np.float64], axis: NDArray[np.float64], half_angle: float, shape: _Shape) -> bool:
-    """Whether a cone about a unit vector meets the ball about a shape."""
-    offset = shape.centre - apex
+def _meets_cone(apex: NDArray[np.float64], axis: NDArray[np.float64], half_angle: float, ball: Ball) -> bool:
+    """Whether a cone about a unit vector meets a ball."""
+    offset = ball.centre - apex
     distance = float(np.sqrt(offset @ offset))
-    if distance <= shape.radius:
+    if distance <= ball.radius:
         return True
     away = math.acos(max(-1.0, min(1.0, float(offset @ axis) / distance)))
-    return away - math.asin(shape.radius / distance) <= half_angle
-
-
-def _ball(part: Record, transform: Transform) -> tuple[NDArray[np.float64], float]:
-    """Centre and radius of a ball about a primitive, in the scene; of an endless one, a point of it."""
-    if part.block == "SPHERE":
-        return transform.points(np.array(part.vector("CENTER"))), part.number("RADIUS") * transform.length()
-    if part.block in ENDLESS:
-        return transform.points(np.array(part.vector("VERTEX2"))), 0.0
-    if part.mesh is not None:
-        points = part.mesh.vertices
-    else:
-        first, second, third = (np.array(part.vector(f"VERTEX{n}")) for n in (1, 2, 3))
-        points = np.array([first, second, third, first + third - second])
-    points = transform.points(points)
-    centre = (points.min(axis=0) + points.max(axis=0)) / 2
-    return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
+    return away - math.asin(ball.radius / distance) <= half_angle
 
 
 def _hidden_background(world: World, _shapes: list[_Shape], findings: Findings) -> None:
@@ -326,7 +316,7 @@ def _no_shadows_at_all(world: World, _shapes: list[_Shape], findings: Findings) 
 
 def _no_heights(world: World, shapes: list[_Shape], findings: Findings) -> None:
     """Heights go from the lowest to the highest point of all that is not endless."""
-    if not all(shape.is_endless for shape in shapes):
+    if not all(shape.kind.is_endless for shape in shapes):
         return
     for thing in world.solids:
         for texture in _textures(thing):
@@ -348,7 +338,7 @@ def _nothing_before_the_camera(world: World, shapes: list[_Shape], findings: Fin
     axis = unit(np.array(record.vector("TO")) - eye)
     taller = max(1.0, record.number("ASPECT") * record.number("HEIGHT") / record.number("WIDTH"))
     half_angle = math.atan(math.tan(math.radians(record.number("FOV") / 2)) * math.hypot(1.0, taller)) + _BENT
-    if not shapes or any(shape.is_endless or _meets_cone(eye, axis, half_angle, shape) for shape in shapes):
+    if not shapes or any(shape.kind.is_endless or _meets_cone(eye, axis, half_angle, shape.ball) for shape in shapes):
         return
     place = record.places.get("TO") or record.places.get("FROM") or shapes[0].record.span
     (x, y, z), (tx, ty, tz) = record.vector("FROM"), record.vector("TO")
@@ -362,28 +352,18 @@ def _inside(world: World, shapes: list[_Shape], findings: Findings) -> None:
     view = world.scene.member("VIEW")
     eye = np.array(view.vector("FROM"))
     for number, shape in enumerate(shapes):
-        if shape.record.block != "SPHERE" or not math.dist(shape.centre, eye) < shape.radius:
+        centre, radius = shape.ball
+        if shape.record.block != "SPHERE" or not math.dist(centre, eye) < radius:
             continue
-        if any(_reaches_into(other, shape) for other in (*shapes[:number], *shapes[number + 1 :])):
+        if any(other.reaches_into(shape.ball) for other in (*shapes[:number], *shapes[number + 1 :])):
             continue
         lamps = (_position(light) for light in world.lights if _is_point(light))
-        if not any(math.dist(lamp, shape.centre) < shape.radius for lamp in lamps):
+        if not any(math.dist(lamp, centre) < radius for lamp in lamps):
             place = view.places.get("FROM", shape.record.span)
             findings.add_at(
-                catalogue.EYE_IN_SPHERE, place, f"within {shape.radius:g} of its centre; it hides everything else"
+                catalogue.EYE_IN_SPHERE, place, f"within {radius:g} of its centre; it hides everything else"
             )
             return
-
-
-def _reaches_into(shape: _Shape, ball: _Shape) -> bool:
-    """Whether a primitive may have points within a sphere."""
-    part = shape.record
-    if shape.is_endless:
-        first, second, third = (shape.transform.points(np.array(part.vector(f"VERTEX{n}"))) for n in (1, 2, 3))
-        normal = unit(np.cross(third - second, first - second))
-        return abs(float((ball.centre - second) @ normal)) < ball.radius
-    apart = math.dist(shape.centre, ball.centre)
-    return apart < ball.radius + shape.radius and not (part.block == "SPHERE" and apart + ball.radius <= shape.radius)
 
 
 ITEM_LINTS: tuple[Callable[[program.Block, ItemFindings], None], ...] = (report_unused_of_textures,)

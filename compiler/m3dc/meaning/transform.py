@@ -156,3 +156,8 @@ def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
     scaled = vector / np.where(largest > 0, largest, 1.0)
     norm = np.sqrt((scaled**2).sum(axis=-1, keepdims=True))
     return scaled / np.where(norm > 0, norm, 1.0)
+
+
+def clean(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers without negative zeros."""
+    return numbers + 0.0

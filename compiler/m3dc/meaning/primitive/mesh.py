@@ -1,43 +1,27 @@
-"""From the tables of POLYGONS and TERRAIN to triangles with normals, checked (thesis 7.5.5.3)."""
+"""Polygons and terrain (thesis 7.5.5.3): from their tables to triangles with normals, checked, and into the IR."""
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..diagnostics import Findings, catalogue
-from ..text.span import Placed
-from .transform import unit
-from .values import Mesh, Record, TableValue
+from ...columns.column import POSITION, UNIT, Column, consecutive
+from ...columns.rows import Rows
+from ...diagnostics import Findings, catalogue
+from ...text.span import Placed
+from ..transform import Transform, unit
+from ..values import Mesh, Record, TableValue
+from .box import ball_about, may_meet, reach_of
+from .degenerate import COLLINEAR, degenerate, squares
+from .primitive import Ball, Fact, Field, Listing, Points, Primitive, Tables
 
 MOST_REPORTED = 20
 PIECE = 1 << 15
-COLLINEAR = 1e-12  # sine of the angle between two edges below which a facet has no plane
 
 _NO_NORMALS = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
 _BROKEN = Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32), *_NO_NORMALS, np.zeros(0, np.uint32), Placed(0, 0))
-
-
-Columns: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
-
-
-def degenerate(u: Columns, v: Columns) -> NDArray[np.bool_]:
-    """Whether edges U, V, given as columns of x, y and z, span no plane: one is zero, or they are parallel."""
-    with np.errstate(all="ignore"):
-        size = np.maximum.reduce([np.abs(column) for column in (*u, *v)])
-        ux, uy, uz = (column / size for column in u)
-        vx, vy, vz = (column / size for column in v)
-        cross, lengths = _squares((ux, uy, uz), (vx, vy, vz))
-        return np.logical_not(cross > COLLINEAR**2 * lengths)
-
-
-def _squares(u: Columns, v: Columns) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """|U x V|² and |U|² |V|²."""
-    (ux, uy, uz), (vx, vy, vz) = u, v
-    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    return x * x + y * y + z * z, (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz)
 
 
 def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.intp]:
@@ -48,7 +32,7 @@ def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> 
         a, b, c = corners[start : start + PIECE].T.astype(np.intp)
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = ((x.take(i), y.take(i), z.take(i)) for i in (a, b, c))
         u, v = (cx - bx, cy - by, cz - bz), (ax - bx, ay - by, az - bz)
-        cross, lengths = _squares(u, v)
+        cross, lengths = squares(u, v)
         # Nearly all are far from flat, which is told without scaling them.
         rows = np.flatnonzero(np.logical_not(cross > 4 * COLLINEAR**2 * lengths))
         if rows.size:
@@ -57,7 +41,7 @@ def _flat_facets(positions: NDArray[np.float64], corners: NDArray[np.int32]) -> 
     return np.concatenate(found) if found else np.zeros(0, np.intp)
 
 
-def polygons(record: Record, findings: Findings, *, whole: bool) -> None:
+def _polygons(record: Record, findings: Findings, *, whole: bool) -> None:
     """Make the mesh of a POLYGONS record from its tables; where it has not both, say so if it must be `whole`."""
     facets = record.tables.get("FACETS") or record.tables.get("SFACETS")
     vertices = record.tables.get("VERTICES")
@@ -128,7 +112,7 @@ def _faceted(vertices: TableValue, facets: TableValue, findings: Findings) -> Me
     return Mesh(positions, corners, normals, normal_rows, facets.offsets, facets.span)
 
 
-def terrain(record: Record, findings: Findings, *, whole: bool) -> None:
+def _terrain(record: Record, findings: Findings, *, whole: bool) -> None:
     """Make the mesh of a TERRAIN record: two facets a cell, and normals by the gradient of the grid."""
     table = record.tables.get("VERTICES")
     if record.mesh is not None or record.broken:
@@ -182,3 +166,115 @@ def _folded(areas: NDArray[np.float64]) -> tuple[NDArray[np.bool_], float]:
 def _along(grid: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     """Central differences of the points along one axis of the grid; one-sided at its edges."""
     return np.gradient(grid, axis=axis)
+
+
+# --- in the scene -------------------------------------------------------------------------------------------------
+
+_BOX = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+
+
+def _vertices(record: Record) -> Points:
+    """In the primitive's own coordinates; none of a mesh that was not made."""
+    return np.zeros((0, 3)) if record.mesh is None else record.mesh.vertices
+
+
+def _reach(record: Record, transform: Transform) -> float:
+    vertices = _vertices(record)
+    if len(vertices):
+        lowest, highest = vertices.min(axis=0), vertices.max(axis=0)
+        vertices = lowest + _BOX * (highest - lowest)
+    return reach_of(transform.points(vertices))
+
+
+def _ball(record: Record, transform: Transform) -> Ball:
+    return ball_about(transform.points(_vertices(record)))
+
+
+def _reaches_into(_record: Record, _transform: Transform, own: Ball, ball: Ball) -> bool:
+    return may_meet(own, ball)
+
+
+# --- in the IR ----------------------------------------------------------------------------------------------------
+
+_TABLES = {
+    "meshes": {
+        "phong": Column("?", (), "normals are interpolated"),
+        **consecutive("vertex", "vertices"),
+        **consecutive("facet", "facets"),
+    },
+    "vertices": {
+        "position": Column("f8", (3,), "world position", POSITION),
+    },
+    "facets": {
+        "vertex": Column("i4", (3,), "rows of its three corners in vertices", row_of="vertices"),
+        "normal": Column(
+            "i4", (3,), "rows of its three corners' normals in normals, or -1", row_of="normals", optional=True
+        ),
+        "offset": Column("u4", (), "byte of the source where it is written"),
+    },
+    "normals": {
+        "direction": Column("f8", (3,), "unit vector", UNIT),
+    },
+}
+
+
+def _lower(rows: Rows, record: Record, transform: Transform) -> int:
+    mesh = record.mesh
+    if mesh is None:
+        return rows.add("meshes", phong=False, first_vertex=0, vertex_count=0, first_facet=0, facet_count=0)
+    first_vertex = rows.extend("vertices", position=transform.points(mesh.vertices))
+    normal_rows = np.full(mesh.facets.shape, -1, np.int32)
+    if len(mesh.normals):
+        first_normal = rows.extend("normals", direction=transform.normals(mesh.normals))
+        normal_rows = mesh.normal_rows + np.int32(first_normal)
+    first_facet = rows.extend(
+        "facets",
+        vertex=mesh.facets + np.int32(first_vertex),
+        normal=normal_rows,
+        offset=mesh.offsets + np.uint32(rows.places.absolute(mesh.table).start),
+    )
+    return rows.add(
+        "meshes",
+        phong=record.flag("PHONG"),
+        first_vertex=first_vertex,
+        vertex_count=len(mesh.vertices),
+        first_facet=first_facet,
+        facet_count=len(mesh.facets),
+    )
+
+
+def _extent(tables: Tables) -> tuple[Points]:
+    return (tables["vertices"]["position"],)
+
+
+def _dump(tables: Tables, row: int, most: int | None) -> Iterator[Field | Listing]:
+    mesh = {name: int(column[row]) for name, column in tables["meshes"].items()}
+    yield Field("Phong", bool(mesh["phong"]))
+    first, count = mesh["first_vertex"], mesh["vertex_count"]
+    shown = count if most is None else min(count, most)
+    vertices: list[list[float]] = tables["vertices"]["position"][first : first + shown].tolist()
+    yield Listing("Number vertices", count, [(vertex, ()) for vertex in vertices])
+    facet, count = mesh["first_facet"], mesh["facet_count"]
+    shown = count if most is None else min(count, most)
+    corners: list[list[int]] = (tables["facets"]["vertex"][facet : facet + shown] - first).tolist()
+    normals = tables["facets"]["normal"][facet : facet + shown]
+    directions = tables["normals"]["direction"]
+    yield Listing(
+        "Number facets",
+        count,
+        [
+            (each, directions[normals[number]].tolist() if mesh["phong"] and normals[number, 0] >= 0 else ())
+            for number, each in enumerate(corners)
+        ],
+    )
+
+
+def _facts(tables: Tables, row: int) -> Sequence[Sequence[Fact]]:
+    vertices, facets = (int(tables["meshes"][column][row]) for column in ("vertex_count", "facet_count"))
+    return [[Fact("vertices", [vertices]), Fact("facets", [facets])]]
+
+
+POLYGONS, TERRAIN = (
+    Primitive(_TABLES, finish, _lower, _extent, _reach, _ball, _reaches_into, _dump, _facts)
+    for finish in (_polygons, _terrain)
+)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.geometry.facets import cut
-from m3d_render.geometry.shape import Rows, Section, Shape, Triangles
+from m3d_render.geometry.shape import Lines, Roundness, Rows, Section, Shape, Triangles
 from m3d_render.geometry.view_plane import ViewPlane
 from m3dc.ir import SceneIR
 
@@ -43,8 +43,17 @@ def _corners(ir: SceneIR, row: int) -> NDArray[np.int32]:
     return ir["facets"]["vertex"][facets(ir, row)]
 
 
+def _outline(ir: SceneIR, row: int, _roundness: Roundness) -> Lines:
+    """Every edge of the facets once."""
+    corners = _corners(ir, row)
+    pairs = np.concatenate([corners[:, (0, 1)], corners[:, (1, 2)], corners[:, (2, 0)]])
+    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    positions = ir["vertices"]["position"]
+    return positions[pairs[:, 0]], positions[pairs[:, 1]]
+
+
 def _section(ir: SceneIR, row: int, plane: ViewPlane) -> Section:
     return Section(cut(ir["vertices"]["position"][_corners(ir, row)], plane))
 
 
-MESH = Shape(_triangles, _section)
+MESH = Shape(_triangles, _outline, _section)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from m3d_render.geometry.shape import Points, Rows, Section, Shape, Triangles, no_segments
+from m3d_render.geometry.shape import Lines, Points, Roundness, Rows, Section, Shape, Triangles, closed, no_segments
 from m3d_render.geometry.view_plane import ViewPlane
 from m3dc.ir import SceneIR
 
@@ -53,6 +53,24 @@ def _unit_sphere(sides: int) -> tuple[Points, Rows]:
     return points, np.concatenate([north, upper, lower, south])
 
 
+def _outline(ir: SceneIR, row: int, roundness: Roundness) -> Lines:
+    """The equator, two parallels and four meridians."""
+    spheres = ir["spheres"]
+    centre, radius = spheres["center"][row], float(spheres["radius"][row])
+    pole, x = spheres["pole"][row], spheres["equator"][row]
+    y = np.cross(pole, x)
+    angle = np.linspace(0, 2 * math.pi, roundness(centre, radius), endpoint=False)[:, None]
+    circles: list[Points] = []
+    for latitude in (-math.pi / 4, 0.0, math.pi / 4):
+        around = np.cos(angle) * x + np.sin(angle) * y
+        circles.append(centre + radius * (math.cos(latitude) * around + math.sin(latitude) * pole))
+    for longitude in np.linspace(0, math.pi, 4, endpoint=False):
+        side = math.cos(longitude) * x + math.sin(longitude) * y
+        circles.append(centre + radius * (np.cos(angle) * side + np.sin(angle) * pole))
+    starts, ends = zip(*(closed(circle) for circle in circles), strict=True)
+    return np.concatenate(starts), np.concatenate(ends)
+
+
 def _section(ir: SceneIR, row: int, plane: ViewPlane) -> Section:
     center, radius = ir["spheres"]["center"][row], float(ir["spheres"]["radius"][row])
     aside = float((center - plane.eye) @ plane.normal)
@@ -64,4 +82,4 @@ def _section(ir: SceneIR, row: int, plane: ViewPlane) -> Section:
     return Section(np.stack([points[:-1], points[1:]], axis=1), filled=True)
 
 
-SPHERE = Shape(_triangles, _section)
+SPHERE = Shape(_triangles, _outline, _section, is_curved=True)

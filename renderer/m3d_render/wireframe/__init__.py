@@ -3,7 +3,7 @@
     from m3d_render import wireframe
 
     picture = wireframe.draw(scene)                                       # as m3d_render.render gives it
-    text = wireframe.svg(wireframe.project(scene, hidden="remove"))       # with a layer for each solid
+    text = wireframe.svg(wireframe.project(scene, hidden="remove"))       # with a group for each solid
 
 Edges are projected with straight rays, whatever MIRAGE says. Nearer lines are drawn over farther ones; which parts of
 them surfaces hide is asked of the ray tracer.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import Literal, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,27 +48,30 @@ class Drawing:
     layers: list[Layer]
 
 
-def project(
-    ir: SceneIR,
-    width: int | None = None,
-    height: int | None = None,
-    *,
-    from_above: bool = False,
-    hidden: Hidden = "show",
-    show: Iterable[str] = (),
-) -> Drawing:
+class Options(TypedDict, total=False):
+    """What is drawn, and from where."""
+
+    from_above: bool
+    """Not from the scene's camera, but as a map."""
+    hidden: Hidden
+    """What becomes of lines behind surfaces; they are shown if not given."""
+    show: Iterable[str]
+    """Marks (MARKS) that are drawn besides."""
+
+
+def project(ir: SceneIR, width: int | None = None, height: int | None = None, **options: Unpack[Options]) -> Drawing:
     """The lines of a scene in a picture of so many pixels (the scene's), seen by its camera or from above.
 
-    `show` names marks (MARKS). Raises SceneError where hidden lines are asked for in a scene that cannot be traced,
-    ValueError for marks there are not.
+    Raises SceneError where hidden lines are asked for in a scene that cannot be traced, ValueError for marks there are
+    not.
     """
-    named = frozenset(show)
+    named, hidden = frozenset(options.get("show", ())), options.get("hidden", "show")
     if not named <= set(MARKS):
         raise ValueError(f"there is no mark {', '.join(sorted(named - set(MARKS)))}; there are {', '.join(MARKS)}")
     scene = ir.scene
     columns, rows = width or scene.view.width, height or scene.view.height
     marked = frustum_points(ir) if "frustum" in named else np.zeros((0, 3))
-    view = above(ir, columns, rows, marked) if from_above else scene.view
+    view = above(ir, columns, rows, marked) if options.get("from_above") else scene.view
     things = edges(ir) if hidden == "show" else edges(ir, partial(_roundness, view, columns))
     groups = [*things, *marks(ir, view, named)]
     layers = [_layer(group, view, columns, rows) for group in groups]

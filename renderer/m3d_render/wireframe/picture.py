@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render.wireframe.drawing import Hidden, project
+from m3d_render.wireframe.drawing import Options, project
 from m3d_render.wireframe.raster import Paper, raster
 from m3dc.ir import SceneIR
 
@@ -17,10 +17,8 @@ def draw(
     width: int | None = None,
     height: int | None = None,
     *,
-    from_above: bool = False,
-    hidden: Hidden = "show",
-    show: Iterable[str] = (),
     paper: Paper = "black",
+    **options: Unpack[Options],
 ) -> NDArray[np.float32]:
-    """The wireframe picture of a scene: rows x columns x 3, 0..1. Options as of `project`."""
-    return raster(project(ir, width, height, from_above=from_above, hidden=hidden, show=show), paper)
+    """The wireframe picture of a scene: rows x columns x 3, 0..1. `options` are those of `project`."""
+    return raster(project(ir, width, height, **options), paper)

@@ -13,15 +13,15 @@ from __future__ import annotations
 import argparse
 import re
 import shutil
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import assert_never
 
 import numpy as np
 from numpy.typing import NDArray
 
 import m3dc
+from m3d_render.geometry import Triangles, shape_of
 from m3dc.ir import Ambient, Haze, LightKind, PrimitiveKind, SceneIR, TextureKind, empty_tables
 
 from .child import Run, run
@@ -148,30 +148,50 @@ def _light(ir: SceneIR, row: int, shadows: bool) -> Iterator[str]:
 
 
 def _primitive(ir: SceneIR, row: int) -> Iterator[str]:
+    """As an object of POV-Ray's own, or else as the triangles that figures make of it."""
     primitives = ir["primitives"]
     kind = PrimitiveKind(int(primitives["kind"][row]))
     shape = int(primitives["row"][row])
-    match kind:
-        case PrimitiveKind.SPHERE:
-            spheres = ir["spheres"]
-            yield f"sphere {{ {_vector(spheres['center'][shape])}, {spheres['radius'][shape]:.10g}"
-        case PrimitiveKind.PLANE:
-            normal = ir["planes"]["normal"][shape]
-            normal = normal / np.sqrt(normal @ normal)
-            yield f"plane {{ {_vector(normal)}, {normal @ ir['planes']['point'][shape]:.10g}"
-        case PrimitiveKind.TRIANGLE | PrimitiveKind.RECTANGLE:
-            columns = ir["triangles" if kind is PrimitiveKind.TRIANGLE else "rectangles"]
-            point, u, v = (columns[name][shape] for name in ("point", "u", "v"))
-            corners = [point + u, point, point + v]
-            if kind is PrimitiveKind.RECTANGLE:
-                corners.append(point + u + v)
-            corners.append(corners[0])
-            yield f"polygon {{ {len(corners)}, {', '.join(map(_vector, corners))}"
-        case PrimitiveKind.POLYGONS | PrimitiveKind.TERRAIN:
-            yield from _mesh(ir, shape)
-        case _:
-            assert_never(kind)
+    if kind in OBJECTS:
+        yield from OBJECTS[kind](ir, shape)
+    else:
+        (triangles,) = shape_of(kind).triangles(ir, np.array([row]), np.array([shape]))
+        yield from _triangles(triangles)
     yield from _surface(ir, int(primitives["solid"][row]), kind, shape)
+    yield "}"
+
+
+def _sphere(ir: SceneIR, row: int) -> Iterator[str]:
+    spheres = ir["spheres"]
+    yield f"sphere {{ {_vector(spheres['center'][row])}, {spheres['radius'][row]:.10g}"
+
+
+def _plane(ir: SceneIR, row: int) -> Iterator[str]:
+    normal = ir["planes"]["normal"][row]
+    normal = normal / np.sqrt(normal @ normal)
+    yield f"plane {{ {_vector(normal)}, {normal @ ir['planes']['point'][row]:.10g}"
+
+
+def _triangle(ir: SceneIR, row: int) -> Iterator[str]:
+    point, u, v = (ir["triangles"][column][row] for column in ("point", "u", "v"))
+    yield _polygon([point + u, point, point + v])
+
+
+def _rectangle(ir: SceneIR, row: int) -> Iterator[str]:
+    point, u, v = (ir["rectangles"][column][row] for column in ("point", "u", "v"))
+    yield _polygon([point + u, point, point + v, point + u + v])
+
+
+def _polygon(corners: list[NDArray[np.float64]]) -> str:
+    closed = [*corners, corners[0]]
+    return f"polygon {{ {len(closed)}, {', '.join(map(_vector, closed))}"
+
+
+def _triangles(triangles: Triangles) -> Iterator[str]:
+    yield f"mesh2 {{ vertex_vectors {{ {len(triangles.points)},"
+    yield ",\n".join(_rows("<%.10g,%.10g,%.10g>", triangles.points))
+    yield f"}} face_indices {{ {len(triangles.corners)},"
+    yield ",\n".join(_rows("<%d,%d,%d>", triangles.corners))
     yield "}"
 
 
@@ -194,7 +214,18 @@ def _mesh(ir: SceneIR, row: int) -> Iterator[str]:
     yield "}"
 
 
-def _rows(form: str, rows: NDArray[np.float64] | NDArray[np.int32]) -> Iterator[str]:
+OBJECTS: Mapping[PrimitiveKind, Callable[[SceneIR, int], Iterator[str]]] = {
+    PrimitiveKind.SPHERE: _sphere,
+    PrimitiveKind.PLANE: _plane,
+    PrimitiveKind.TRIANGLE: _triangle,
+    PrimitiveKind.RECTANGLE: _rectangle,
+    PrimitiveKind.POLYGONS: _mesh,
+    PrimitiveKind.TERRAIN: _mesh,
+}
+"""The beginning of an object, up to its texture."""
+
+
+def _rows(form: str, rows: NDArray[np.float64] | NDArray[np.int32] | NDArray[np.int64]) -> Iterator[str]:
     each: list[list[float]] = rows.tolist()
     return (form % tuple(row) for row in each)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from marks import without_marks
-from primitives import ENDLESS, PRIMITIVES
+from primitives import ENDLESS, solid
 
 import m3d_render
 import m3dc
@@ -75,7 +75,7 @@ def test_a_texture_uses_what_the_language_says(texture: str) -> None:
 
 @pytest.mark.parametrize("kind", PrimitiveKind, ids=lambda kind: kind.name)
 def test_every_kind_of_primitive_behind_the_camera(kind: PrimitiveKind) -> None:
-    away = f"SCENE {{ SKY {{ }} VIEW {{ FROM < 0, 0, 1 > TO < -20, 0, 1 > }} }} SOLID {{ {PRIMITIVES[kind]} }}"
+    away = f"SCENE {{ SKY {{ }} VIEW {{ FROM < 0, 0, 1 > TO < -20, 0, 1 > }} }} {solid(kind)}"
     assert ("M3D0526" in codes(away)) == (kind not in ENDLESS)
     toward = away.replace("-20", "20")
     assert "M3D0526" not in codes(toward)

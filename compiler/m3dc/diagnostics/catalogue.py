@@ -147,7 +147,8 @@ NUMBER_TOO_LARGE = _error(
 TOO_MANY_ERRORS = _error(
     "M3D0115",
     "Too many errors",
-    "The compiler gives up after 200 syntax errors or 10000 other problems: the file is probably no scene.",
+    "The compiler gives up after 200 syntax errors or 10000 other problems, and where it can understand so little of a "
+    "long text that reading on would take too long: the file is probably no scene.",
     "SOLID { SPHERE { RADIUS -1 } }\n" * 10_001,
     "SOLID { SPHERE { RADIUS 1 } }",
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from difflib import get_close_matches
 
 from m3d_language.table import LANGUAGE
@@ -23,7 +23,7 @@ def nearest(word: str, known: Collection[str]) -> str | None:
     slips = [other for other in known if _is_one_slip(word.upper(), other)] if len(word) >= _SHORTEST else []
     if len(slips) == 1 and word.upper() not in known:
         return slips[0]
-    return next(iter(get_close_matches(word.upper(), sorted(known), 1, _ALIKE)), None)
+    return _most_alike(word.upper(), sorted(known))
 
 
 def certain(word: str, known: Collection[str]) -> str | None:
@@ -36,6 +36,13 @@ def certain(word: str, known: Collection[str]) -> str | None:
         return None
     found = [other for other in known if _is_one_slip(upper, other)]
     return found[0] if len(found) == 1 else None
+
+
+def _most_alike(word: str, known: Sequence[str]) -> str | None:
+    """The known word that is most like another. One of twice the length of all of them is like none."""
+    if len(word) > 2 * max(map(len, known), default=0):
+        return None
+    return next(iter(get_close_matches(word, known, 1, _ALIKE)), None)
 
 
 def _is_one_slip(word: str, other: str) -> bool:
@@ -65,7 +72,7 @@ class Names:
         if self._forwards:
             candidates = _around(self._forwards, name)
             candidates += [other[::-1] for other in _around(self._backwards, name[::-1])]
-        return next(iter(get_close_matches(name, candidates, 1, _ALIKE)), None)
+        return _most_alike(name, candidates)
 
 
 def _around(names: list[str], name: str) -> list[str]:

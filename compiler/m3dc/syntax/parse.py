@@ -110,8 +110,6 @@ def _parse(
     end = len(data) if unclosed is None else unclosed
     recovered = recover(data, tree.root_node, end, form, MOST_FAULTS)
     if recovered is None:
-        place = form.found[-1].span
-        form.add(catalogue.TOO_MANY_ERRORS, place, f"{MOST_FAULTS} syntax errors up to here")
         return Syntax(tree, iter(()), places)
     if not form.found:
         # Nothing that is broken is taken for a scene in silence.

@@ -19,9 +19,9 @@ from tree_sitter import Node
 
 from m3d_language.table import LANGUAGE
 
-from ...diagnostics import TextFindings
+from ...diagnostics import TextFindings, catalogue
 from ...text.span import Span
-from .faults import TooManyError
+from .limit import GivenUpError
 from .reader import Read, Reader
 
 __all__ = ["Read", "Recovered", "recover"]
@@ -36,8 +36,8 @@ class Recovered(NamedTuple):
 
 
 def recover(data: bytes, root: Node, end: int, findings: TextFindings, most: int) -> Recovered | None:
-    """Read the stretches of a text, up to `end`, that have errors in its tree. None if there are more faults than
-    `most`: the text is given up."""
+    """Read the stretches of a text, up to `end`, that have errors in its tree. None where the text is given
+    up: there are more faults than `most`, or too much to be read."""
     nodes = [node for node in root.children if node.type != "comment" and node.start_byte < end]
     whole = {node.start_byte for node in nodes if _is_whole(node, root)}
     reader = Reader(data, end, findings, whole, most, _declared_types(nodes))
@@ -54,7 +54,9 @@ def recover(data: bytes, root: Node, end: int, findings: TextFindings, most: int
                     break
                 start = before.start_byte
             done = reader.run(start, node.start_byte + 1)
-    except TooManyError:
+    except GivenUpError as reason:
+        place = findings.found[-1].span if len(findings.found) >= most else reader.place
+        findings.add(catalogue.TOO_MANY_ERRORS, place, str(reason))
         return None
     return Recovered(tuple(reader.read), tuple(reader.stretches), frozenset(reader.names))
 

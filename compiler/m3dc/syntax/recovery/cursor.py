@@ -11,6 +11,9 @@ from .. import ast
 from . import wording
 from .faults import Faults
 from .lexer import Lexer, Token
+from .limit import Budget
+
+_BYTES_PER_TOKEN = 32  # that can be looked at as a whole while one token is made
 
 
 class Cursor:
@@ -46,7 +49,7 @@ class Cursor:
     def __init__(self, data: bytes, end: int, faults: Faults, whole: set[int], types: dict[str, str]) -> None:
         self.data = data
         self.faults = faults
-        self.lexer = Lexer(data, end, faults.report_passed)
+        self.lexer = Lexer(data, end, faults.report_passed, Budget(end))
         self.cut = end < len(data)
         self.whole = whole  # where the items begin that the tree has without an error
         self.types = types  # of variables, by name
@@ -111,6 +114,12 @@ class Cursor:
         """Where what should stand before the next token is missing: there, or, if that is on another line, at the end
         of this one."""
         return token.span if not token.first and token.kind != "end" else (self.before, self.before)
+
+    def look(self, start: int, end: int | None = None) -> Lexer:
+        """The tokens from a byte on, to look at and not to pass."""
+        lexer = Lexer(self.data, self.lexer.end if end is None else end, _unheard, self.lexer.budget)
+        lexer.at = start
+        return lexer
 
     def relative(self, span: Span) -> Local:
         """A span of the text, from the start of the item."""
@@ -194,6 +203,7 @@ class Cursor:
 
     def blanked(self, start: int, end: int) -> str:
         """A stretch of text, a character a byte, without its comments and the braces that are ignored."""
+        self.lexer.budget.spend((end - start) // _BYTES_PER_TOKEN)
         text = bytearray(self.data[start:end])
         for at in self.lexer.ignored:
             if start <= at < end:
@@ -219,5 +229,5 @@ def indent(data: bytes, offset: int) -> int:
     return len(margin[: len(margin) - len(margin.lstrip())].expandtabs())
 
 
-def unheard(kind: str, span: Span, text: str) -> None:
+def _unheard(kind: str, span: Span, text: str) -> None:
     """Of what is passed over in looking ahead nothing is said."""

@@ -12,21 +12,19 @@ from ...diagnostics.catalogue import Entry
 from ...diagnostics.words import statement_of
 from ...text.span import Span
 from .lexer import Token
+from .limit import GivenUpError
 
 _WORDISH = re.compile(rb"[A-Za-z0-9_.+-]")
 _LONG_FIX = 10_000  # bytes: habits further apart are mended one by one
-
-
-class TooManyError(Exception):
-    """More faults than are reported."""
 
 
 class _Habit(NamedTuple):
     """Faults of one kind in an item: the first is reported, with one fix for all."""
 
     place: int  # among the findings
+    start: int  # of the first one
     title: str
-    edits: list[tuple[Span, str]] | None
+    edits: dict[tuple[Span, str], None] | None  # None: there are none, or too many
     certain: bool
 
 
@@ -77,16 +75,18 @@ class Faults:
         item."""
         if kind is not None and kind in self._habits:
             habit = self._habits[kind]
-            if habit.edits is not None and edits is not None:
-                habit.edits.extend(edit for edit in edits if edit not in habit.edits)
-            elif habit.edits is not None:
-                habit.edits.clear()
+            if habit.edits is not None and edits is not None and abs(span[0] - habit.start) <= _LONG_FIX:
+                habit.edits.update(dict.fromkeys(edits))
+            else:
+                self._habits[kind] = habit._replace(edits=None)
             return
         if len(self.findings.found) >= self._most:
-            raise TooManyError
+            raise GivenUpError(f"{self._most} syntax errors up to here")
         index = len(self.findings.found)
         self.findings.add(entry, span, detail, fill=fill, related=related)
-        self._habits[kind or f"#{index}"] = _Habit(index, title, None if edits is None else list(edits), sure)
+        self._habits[kind or f"#{index}"] = _Habit(
+            index, span[0], title, None if edits is None else dict.fromkeys(edits), sure
+        )
 
     def forget_from(self, mark: int) -> None:
         """Drop what was reported since so much had been found."""

@@ -55,7 +55,7 @@ def _word(cursor: Cursor) -> ast.Item | None:
         return read_assignment(cursor)
     if after.text == ":" and cursor.peek(2).kind in ("number", "<", "word"):
         return read_assignment(cursor)
-    if after.text in _CHANGES or (after.text in "+-" and cursor.peek(2).text == after.text):
+    if after.text in _CHANGES or (after.text in ("+", "-") and cursor.peek(2).text == after.text):
         return _changed(cursor)
     if after.kind == "word" and cursor.peek(2).kind in ("=", ";", ",") and not after.first:
         return _declared_outside(cursor)

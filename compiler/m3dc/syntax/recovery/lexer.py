@@ -11,10 +11,11 @@ from typing import NamedTuple
 from m3d_language.table import LANGUAGE
 
 from ...text.span import Span
+from .limit import Budget
 
 _BLANKS = re.compile(rb"[ \t\r\n\f\v]*")
 _TOKEN = re.compile(
-    rb"""(?P<number> [+-]?\.?[0-9] (?: [eE][+-] | [A-Za-z0-9_.] )* )
+    rb"""(?P<number> [+-]?\.?[0-9] (?: [eE][+-] | [A-Za-z0-9_.] )*+ )
        | (?P<word> [A-Za-z][A-Za-z0-9_]* )
        | (?P<comment> /(?!/\*)/ (?: (?!/\*|\*/) [^\r\n] )* | <!--.*?--> | \#(?=[\s\#!]|\Z) (?: (?!/\*|\*/) [^\r\n] )*
             | --(?=[ ]) (?: (?!/\*|\*/) [^\r\n] )* )
@@ -30,7 +31,7 @@ _TOKEN = re.compile(
 )
 _BEFORE = re.compile(rb"(?:\A|[\r\n{}])[ \t]*\Z")
 _COMMENT_MARK = re.compile(rb"/\*|\*/")
-_NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)+")
+_NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)++")
 
 CLOSERS = {"(": ")", "[": "]", "{": "}"}
 
@@ -59,9 +60,10 @@ class Lexer:
     """Reads tokens from byte `at` on, up to `end`. Of the bytes in `ignored` nothing is made; at each of the places
     `closed`, in order, a `}` is read that is not there."""
 
-    def __init__(self, data: bytes, end: int, passed: Passed) -> None:
+    def __init__(self, data: bytes, end: int, passed: Passed, budget: Budget) -> None:
         self.data = data
         self.end = end
+        self.budget = budget
         self.at = 0
         self.ignored: set[int] = set()
         self.closed: list[int] = []
@@ -69,6 +71,7 @@ class Lexer:
 
     def next(self) -> Token:
         """The token that comes next, and past it."""
+        self.budget.spend(1)
         data, before = self.data, self.at
         at = before
         while True:
@@ -116,6 +119,8 @@ class Lexer:
         text = self._text(at, at + length)
         if kind == "mark":
             return self._token(text, at, length, before)
+        if kind == "word" and self.data[at + length : at + length + 1].isascii():
+            return self._token("keyword" if text in LANGUAGE.keywords else "word", at, length, before)
         if kind == "word" or (kind == "other" and (text == "_" or text.isalpha())):
             more = _NAME_GOES_ON.match(self.data, at)
             whole = self._text(at, more.end()) if more else text
@@ -123,7 +128,7 @@ class Lexer:
             whole = whole[:letters]
             if kind == "other" or len(whole) > len(text):
                 return self._token("name", at, len(whole.encode()), before)
-            return self._token("keyword" if text in LANGUAGE.keywords else "word", at, length, before)
+            kind = "keyword" if text in LANGUAGE.keywords else "word"
         return self._token(kind, at, length, before)
 
     def _token(self, kind: str, start: int, length: int, before: int) -> Token:

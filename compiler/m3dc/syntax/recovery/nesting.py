@@ -10,8 +10,8 @@ from ...diagnostics.words import members
 from .. import ast
 from . import skip, wording
 from .braces import brace_faults
-from .cursor import Cursor, unheard
-from .lexer import Lexer, Token
+from .cursor import Cursor
+from .lexer import Token
 
 
 class AgainError(Exception):
@@ -53,8 +53,7 @@ def open_block(cursor: Cursor, keyword: Token, *, variable: bool = False) -> boo
 
 def _has_more_closed(cursor: Cursor, start: int) -> bool:
     """Whether braces from here on to the next item close more than is open."""
-    lexer = Lexer(cursor.data, cursor.lexer.end, unheard)
-    lexer.at, depth = start, len(cursor.open)
+    lexer, depth = cursor.look(start), len(cursor.open)
     while (token := lexer.next()).kind != "end" and not (token.first and token.text in members(None)):
         depth += (token.kind == "{") - (token.kind == "}")
         if depth < 0:

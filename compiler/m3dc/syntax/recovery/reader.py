@@ -41,6 +41,11 @@ class Reader:
         """The names that may be declared or assigned to in what was read."""
         return self._cursor.names
 
+    @property
+    def place(self) -> Span:
+        """Where reading has come to."""
+        return self._cursor.before, self._cursor.before
+
     def run(self, start: int, past: int) -> int:
         """Read items from a byte on, at least up to `past`, until one that the tree has whole; returns its start."""
         cursor = self._cursor

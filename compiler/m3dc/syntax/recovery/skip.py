@@ -7,8 +7,8 @@ from m3d_language.table import LANGUAGE
 from ...diagnostics.spelling import certain
 from ...diagnostics.words import members
 from . import wording
-from .cursor import Cursor, indent, unheard
-from .lexer import CLOSERS, Lexer, Token
+from .cursor import Cursor, indent
+from .lexer import CLOSERS, Token
 
 
 def lines(cursor: Cursor) -> None:
@@ -88,8 +88,7 @@ def brackets(cursor: Cursor) -> None:
 
 def all_brackets(cursor: Cursor) -> None:
     """Pass brackets with all that is in them, whatever it is; where they are not closed, the rest of the line."""
-    lexer = Lexer(cursor.data, cursor.lexer.end, unheard)
-    lexer.at = cursor.peek().start
+    lexer = cursor.look(cursor.peek().start)
     open_ = ""
     while (token := lexer.next()).kind != "end" and not (token.first and token.text in members(None)):
         if token.text in CLOSERS:

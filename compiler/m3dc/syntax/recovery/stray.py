@@ -7,8 +7,7 @@ from m3d_language.table import LANGUAGE
 from ...diagnostics import catalogue
 from ...diagnostics.words import members
 from .braces import brace_faults
-from .cursor import Cursor, unheard
-from .lexer import Lexer
+from .cursor import Cursor
 
 
 class ElsewhereError(Exception):
@@ -53,6 +52,7 @@ def pass_stray_brace(cursor: Cursor) -> None:
 
 def _blocks_before(cursor: Cursor, end: int) -> list[tuple[int, tuple[str, int]]]:
     """The top-level block that stands last before a byte: where it begins, its keyword and closing brace."""
+    cursor.lexer.budget.spend(len(cursor.blocks) + len(cursor.whole))
     before = [(start, block) for start, block in cursor.blocks.items() if block[1] < end]
     whole = max((start for start in cursor.whole if start < end), default=None)
     if whole is not None and all(start < whole for start, _ in before):
@@ -63,8 +63,7 @@ def _blocks_before(cursor: Cursor, end: int) -> list[tuple[int, tuple[str, int]]
 
 def _whole_block(cursor: Cursor, start: int) -> tuple[str, int] | None:
     """The keyword and closing brace of the top-level block at a byte; None where there is none."""
-    lexer = Lexer(cursor.data, cursor.lexer.end, unheard)
-    lexer.at = start
+    lexer = cursor.look(start)
     keyword, depth = lexer.next(), 0
     if keyword.text not in LANGUAGE.top:
         return None
@@ -79,7 +78,5 @@ def _whole_block(cursor: Cursor, start: int) -> tuple[str, int] | None:
 
 def _first_member(cursor: Cursor, start: int, end: int) -> str | None:
     """The keyword that stands first in a stretch."""
-    lexer = Lexer(cursor.data, end, unheard)
-    lexer.at = start
-    token = lexer.next()
+    token = cursor.look(start, end).next()
     return token.text if token.kind == "keyword" else None

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 import m3dc
 from m3dc import SceneIR, Source
 from m3dc.analysis import Analyser, Analysis
+from m3dc.meaning.values import Record, Value
+from m3dc.syntax import ast
 
 SCENE = """\
 /* A scene to be edited. */
@@ -46,6 +48,25 @@ def spread(ir: SceneIR) -> list[tuple[str, str, str]]:
     return [("", "", repr(ir.scene)), *tables]
 
 
+def worths(analysis: Analysis) -> list[object]:
+    """What every name, vector, statement and block of the tree is worth, comparable, and the matrices of the blocks."""
+
+    def plain(value: Value | None) -> object:
+        if not isinstance(value, Record):
+            return value
+        return value.block, analysis.places.absolute(value.span), value.values, len(value.parts), [*value.nested]
+
+    found: list[object] = []
+    for at in ast.walk(analysis.items, ast.Name, ast.Vector, ast.Statement):
+        worth = analysis.statement_value(at) if isinstance(at.node, ast.Statement) else plain(analysis.value_of(at))
+        found.append((at.span, worth))
+    for at in ast.walk(analysis.items, ast.Block):
+        here = analysis.enclosing(at)
+        matrix = None if here is None else here.transform.matrix.tolist()
+        found.append((at.span, plain(analysis.value_of(at)), matrix))
+    return found
+
+
 def check_same(analysis: Analysis, text: bytes) -> None:
     fresh = m3dc.compile(text)
     assert analysis.diagnostics == fresh.diagnostics
@@ -54,6 +75,7 @@ def check_same(analysis: Analysis, text: bytes) -> None:
     assert str(analysis.tree.root_node) == str(anew.tree.root_node)
     assert [(top.start, top.item) for top in analysis.items] == [(top.start, top.item) for top in anew.items]
     assert [item.start for item in analysis.program] == [item.start for item in anew.program]
+    assert worths(analysis) == worths(anew)
 
 
 edits = st.lists(
@@ -138,3 +160,78 @@ SOLID { SPHERE ball SPHERE { RADIUS size } SPHERE { RADIUS 4 } }
     moved = analyser.analyse(Source(("\n" + text).encode())).world.solids[0].parts
     last = analyser.analyse(Source(("\n" + text.replace("size = 2", "size = 6")).encode())).world.solids[0].parts
     assert [one is other for one, other in zip(moved, last, strict=True)] == [True, False, True]
+
+
+# --- asking -----------------------------------------------------------------------------------------------------------
+
+
+def asked(marked: str) -> tuple[Analysis, ast.Located]:
+    """An analysed text, and the innermost node that holds what stands between `[` and `]`."""
+    start, end = marked.index("["), marked.index("]") - 1
+    analysis = Analyser().analyse(Source(marked.replace("[", "").replace("]", "").encode()))
+    at = ast.locate(analysis.items, (start, end))
+    assert at is not None
+    return analysis, at
+
+
+@pytest.mark.parametrize(
+    ("marked", "worth"),
+    [
+        ("VARIABLES { NUMBER a; } a = [2.5] SOLID { SPHERE { RADIUS a } }", 2.5),
+        ("VARIABLES { NUMBER a; } [a] = 2.5 SOLID { SPHERE { RADIUS a } }", 2.5),
+        ("VARIABLES { NUMBER a; } a = 2 SOLID { SPHERE { RADIUS [a] } } a = 3", 2.0),
+        ("VARIABLES { NUMBER a; } a = 2 SOLID { SPHERE { RADIUS 1 } } a = 3 SOLID { SPHERE { RADIUS [a] } }", 3.0),
+        ("VARIABLES { NUMBER a; } SOLID { SPHERE { RADIUS [a] } } a = 3", None),
+        ("VARIABLES { NUMBER a; } a = -1 SOLID { SPHERE { CENTER [< a, 2, 1e3 >] } }", (-1.0, 2.0, 1000.0)),
+        ("VARIABLES { NUMBER a, b; } a = b SOLID { SPHERE { CENTER [< a, 2, 3 >] } }", (0.0, 2.0, 3.0)),
+        ("VARIABLES { VECTOR a, b; } a = < 1, 2, 3 > b = [a] SOLID { SPHERE { CENTER b } }", (1.0, 2.0, 3.0)),
+        ("SOLID { SPHERE { RADIUS [1e999] } }", None),
+        ("SOLID { SPHERE { RADIUS 1 CENTER [< 1, 2 > } }]", None),
+    ],
+)
+def test_what_an_argument_is_worth(marked: str, worth: Value | None) -> None:
+    analysis, at = asked(marked)
+    assert analysis.value_of(at) == worth
+
+
+def test_what_a_block_is_worth() -> None:
+    text = "SOLID { SPHERE { RADIUS 1 } [SPHERE { RADIUS 2 RADIUS 3 }] SURFACE { COLOR < 1, 9, 0 > } }"
+    analysis, at = asked(text)
+    record = analysis.value_of(at)
+    assert isinstance(record, Record)
+    assert (record.block, record.number("RADIUS")) == ("SPHERE", 3.0)
+    held = [analysis.statement_value(each) for each in ast.walk(analysis.items, ast.Statement)]
+    assert held == [1.0, None, 3.0, (1.0, 1.0, 0.0)]  # replaced by a later one; set to the nearest limit
+
+
+@pytest.mark.parametrize(
+    ("marked", "x"),
+    [
+        ("SOLID { SPHERE { TRANSFORM { TRANSX 1 [TRANSX 2] TRANSX 4 } } TRANSFORM { TRANSX 8 } }", 3),
+        ("SOLID { SPHERE { [TRANSFORM { TRANSX 1 TRANSX 2 TRANSX 4 }] } TRANSFORM { TRANSX 8 } }", 7),
+        ("SOLID { SPHERE { TRANSFORM { TRANSX 1 } [TRANSFORM { TRANSX 2 }] TRANSFORM { TRANSX 4 } } }", 3),
+        ("SOLID { SPHERE { RADIUS [2] TRANSFORM { TRANSX 1 } } TRANSFORM { TRANSX 8 } }", 1),
+        ("VARIABLES { TRANSFORM t; } t = { TRANSX 1 } t = { TRANSX 2 [TRANSX 4] TRANSX 8 } SOLID { SPHERE { } }", 7),
+        ("VARIABLES { SPHERE b; } b = { TRANSFORM { TRANSX 1 } } SOLID { SPHERE b { TRANSFORM { [TRANSX 2] } } }", 3),
+        ("VARIABLES { TRANSFORM t; } t = { TRANSX 1 } SOLID { SPHERE { TRANSFORM t { [TRANSX 2] } } }", 3),
+    ],
+)
+def test_the_matrix_up_to_a_place(marked: str, x: float) -> None:
+    analysis, at = asked(marked)
+    here = analysis.enclosing(at)
+    assert here is not None
+    assert here.transform.matrix[3].tolist() == [x, 0, 0, 1]
+
+
+@given(st.data())
+def test_every_node_is_found_at_its_place(data: st.DataObject) -> None:
+    analysis = Analyser().analyse(Source(SCENE.encode()))
+    nodes = list(ast.walk(analysis.items))
+    at = data.draw(st.sampled_from(nodes))
+    found = ast.locate(analysis.items, at.span)
+    assert found is not None
+    assert found.span == at.span
+    assert at.node in (found.node, *found.around)
+    for outer, inner in zip((*at.around, at.node), (*at.around[1:], at.node), strict=False):
+        assert inner is outer or any(inner is part for part in ast.children(outer))
+    assert [each.span[0] for each in nodes] == sorted(each.span[0] for each in nodes)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,23 @@ def lower(world: World, source: str, places: Places) -> ir.SceneIR:
     tables = rows.tables()
     spans = {keyword: places.absolute(record.span).bytes for keyword, record in _once(world.scene)}
     return ir.SceneIR(_scene(world.scene, sun, _extent(tables), tables["profile"], spans), tables, source)
+
+
+class Shapes(NamedTuple):
+    """Some primitives as rows of the IR's tables, and the box that holds those that end somewhere."""
+
+    tables: dict[str, ir.Table]
+    extent: ir.Extent | None
+
+
+@np.errstate(all="ignore")
+def shapes(parts: Iterable[Record], transform: Transform, places: Places) -> Shapes:
+    """Primitives alone, moved by the matrix of what they are parts of. They may be faulty."""
+    rows = Rows(ir.TABLES, places)
+    for part in parts:
+        _primitive(rows, part, transform)
+    tables = rows.tables()
+    return Shapes(tables, _extent(tables))
 
 
 def _once(scene: Record) -> Iterator[tuple[str, Record]]:

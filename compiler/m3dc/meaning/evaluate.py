@@ -123,6 +123,12 @@ class Evaluator:
             tuple(made),
         )
 
+    @np.errstate(all="ignore")
+    def transform(self, holder: program.Block | program.Assignment) -> Transform | None:
+        """The matrix of the record that a block or an assignment makes. None where it can not be undone."""
+        record = self._record(holder) if isinstance(holder, program.Block) else self._assign(holder)
+        return record.transform if isinstance(record, Record) and "TRANSFORM" not in record.broken else None
+
     def _once(self, key: Hashable, of: object, work: Callable[[], T]) -> T:
         """The outcome of `work`, not done again where nothing has changed since the run before (`Steps.do`)."""
         if self._memory is None:

@@ -1,14 +1,18 @@
-"""Numerals: what one is worth, and what to say of a token that is none."""
+"""Numerals: what one is worth, what to say of a token that is none, and where they stand in a part of a text."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
+
+from m3d_language import blank_comments
 
 from ..diagnostics import Fix, catalogue
 from ..diagnostics.catalogue import Entry
 from ..diagnostics.findings import At
+from ..text.span import Span
 
 _NUMBER = re.compile(rb"[+-]?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?")
 _LEADING_POINT = re.compile(rb"^([+-]?)\.")
@@ -16,6 +20,45 @@ _BARE_POINT = re.compile(rb"(\.)(?![0-9])")
 _GROUPS = re.compile(rb"[+-]?[0-9]{1,3}(_[0-9]{3})+(\.[0-9]+)?")
 _C_SUFFIX = re.compile(rb"([+-]?[0-9]+\.[0-9]+)[fF]")
 _UNIT = re.compile(rb"[+-]?[0-9]+(?:\.[0-9]+)?([A-Za-z]+)")
+
+# What ends a value in a list of arguments or a table.
+_ENDS = b" \t\r\n\f\v<>,{}"
+_SCALAR = re.compile(rb"[^%s]+" % _ENDS)
+_VALUE = re.compile(rb"<[^>]*>?|[^%s]+" % _ENDS)
+
+
+def scalars(data: bytes, start: int, end: int) -> Iterator[Span]:
+    """Where the numerals and names of a part of a text stand, those in vectors too, comments left out."""
+    return _found(_SCALAR, data, start, end)
+
+
+def values(data: bytes, start: int, end: int) -> Iterator[Span]:
+    """Where the values of a part of a table stand: its vectors, and its numerals and names outside of them."""
+    return _found(_VALUE, data, start, end)
+
+
+def _found(pattern: re.Pattern[bytes], data: bytes, start: int, end: int) -> Iterator[Span]:
+    if data.find(b"/*", start, end) < 0:
+        return (match.span() for match in pattern.finditer(data, start, end))
+    text = blank_comments(data[start:end].decode("latin-1")).encode("latin-1")
+    return ((start + match.start(), start + match.end()) for match in pattern.finditer(text))
+
+
+def around(data: bytes, offset: int, within: Span) -> Span:
+    """The numeral or name that holds a byte or ends before it, as far as it is within a range; an empty one at the byte
+    where there is none."""
+    start = end = offset
+    while start > within[0] and data[start - 1] not in _ENDS:
+        start -= 1
+    while end < within[1] and data[end] not in _ENDS:
+        end += 1
+    return start, end
+
+
+def decimals(numeral: str) -> int | None:
+    """How many digits stand behind the point of a numeral that is digits, a point and digits; None of any other."""
+    whole, _, fraction = numeral.partition(".")
+    return len(fraction) if whole.isdigit() and fraction.isdigit() else None
 
 
 class Fault(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from m3d_language.table import LANGUAGE
@@ -32,6 +32,11 @@ _TOKEN = re.compile(
 _BEFORE = re.compile(rb"(?:\A|[\r\n{}])[ \t]*\Z")
 _COMMENT_MARK = re.compile(rb"/\*|\*/")
 _NAME_GOES_ON = re.compile(rb"(?:[A-Za-z0-9_]|[\xc2-\xf4][\x80-\xbf]+)++")
+# A numeral, which is passed over, or a word with what makes it the target of an assignment.
+_WORD = re.compile(rb"[+-]?\.?[0-9](?:[eE][+-]|[A-Za-z0-9_.])*+|([A-Za-z][A-Za-z0-9_]*)(\s*=)?")
+_TYPED = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
+_REST = re.compile(rb"[A-Za-z0-9_.]*")
+_LONGEST_TYPED = 300
 
 CLOSERS = {"(": ")", "[": "]", "{": "}"}
 
@@ -155,3 +160,38 @@ def comment_end(data: bytes, start: int) -> int | None:
         if depth == 0:
             return mark.end()
     return None
+
+
+def tokens(data: bytes, start: int) -> Iterator[Token]:
+    """The tokens of a text from a byte on."""
+    lexer = Lexer(data, len(data), lambda _kind, _span, _text: None)
+    lexer.at = start
+    while (token := lexer.next()).kind != "end":
+        yield token
+
+
+class Word(NamedTuple):
+    """A word of a text, and whether an equals sign stands behind it."""
+
+    text: str
+    span: Span
+    is_target: bool
+
+
+def words(data: bytes, start: int, end: int) -> Iterator[Word]:
+    """The keywords and names in a part of a text, whatever stands about them, those in comments too."""
+    for match in _WORD.finditer(data, start, end):
+        if match[1] is not None:
+            yield Word(match[1].decode("ascii"), match.span(1), match[2] is not None)
+
+
+def word_start(data: bytes, offset: int) -> int:
+    """Where the word or numeral begins that ends at a byte; the byte itself where none does."""
+    before = _TYPED.search(data[max(offset - _LONGEST_TYPED, 0) : offset])
+    return offset - len(before[0]) if before else offset
+
+
+def word_end(data: bytes, offset: int) -> int:
+    """Where the word or numeral ends that a byte is in; the byte itself where it is in none."""
+    rest = _REST.match(data, offset)
+    return rest.end() if rest else offset

@@ -5,7 +5,7 @@ from __future__ import annotations
 from m3d_language.phrases import allowed
 from m3d_language.table import Argument, Statement, Table
 
-from .cursor import Slot
+from .entry import Slot
 from .explain import argument_name
 from .markdown import shown
 from .summary import number, vector

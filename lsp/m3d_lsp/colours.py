@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
-from m3d_language import blank_comments
+import numpy as np
+
 from m3d_language.table import Argument
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import Vector
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast, numerals
 
-from .names import Names, names
 from .rows import row_starts
 from .text import Span
 
 KIND = "color"
-_VECTOR = re.compile(r"<[^>]*>")
 # A table of colours has 20 rows at most; one that is longer is not looked at.
 _MOST_ROWS = 100
 
@@ -42,7 +40,6 @@ class _Use(NamedTuple):
 @lru_cache(maxsize=8)
 def colours(analysis: Analysis) -> list[Colour]:
     """Every colour of a scene, as far as it is right, in the order of the text."""
-    known = names(analysis)
     uses = list(_uses(analysis))
     variables = color_variables(analysis)
     for item in analysis.program:
@@ -51,7 +48,7 @@ def colours(analysis: Analysis) -> list[Colour]:
             continue
         if isinstance(content.value, (ast.Vector, ast.Name)):
             uses.append(_Use(content.value, item.start))
-    found = [colour for use in uses if (colour := _colour(use, known)) is not None]
+    found = [colour for use in uses if (colour := _colour(use, analysis)) is not None]
     return sorted([*found, *_in_tables(analysis)])
 
 
@@ -86,13 +83,11 @@ def _of_kind(expected: tuple[Argument, ...], given: tuple[ast.Argument, ...]) ->
             yield argument
 
 
-def _colour(use: _Use, known: Names) -> Colour | None:
+def _colour(use: _Use, analysis: Analysis) -> Colour | None:
     span = use.argument.span.within(use.start)
-    if isinstance(use.argument, ast.Vector):
-        value = known.vector(use.argument, span[0])
-        return None if value is None else Colour(span, value, None)
-    value = known.value(use.argument.text, span[0])
-    return Colour(span, value, use.argument.text) if isinstance(value, tuple) else None
+    value = analysis.value(use.argument, span[0])
+    variable = use.argument.text if isinstance(use.argument, ast.Name) else None
+    return Colour(span, value, variable) if isinstance(value, tuple) else None
 
 
 def _in_tables(analysis: Analysis) -> Iterator[Colour]:
@@ -107,11 +102,13 @@ def _in_rows(table: program.Table, item: int, data: bytes) -> Iterator[Colour]:
     starts = row_starts(table, item)
     if table.bulk is None or not 0 < len(starts) <= _MOST_ROWS:
         return
-    first, end = int(starts[0]), table.span.within(item)[1]
-    text = blank_comments(data[first:end].decode("latin-1"))
-    for match in _VECTOR.finditer(text):
-        try:
-            x, y, z = (float(number) for number in match[0][1:-1].split(","))
-        except ValueError:
-            continue
-        yield Colour((first + match.start(), first + match.end()), (x, y, z), None)
+    rows = np.asarray(table.bulk.rows).reshape(-1, table.bulk.width)
+    ends = [*starts[1:].tolist(), table.span.within(item)[1] - 1]
+    for row, start, end in zip(rows.tolist(), starts.tolist(), ends, strict=True):
+        column = 0
+        for argument, span in zip(table.entry.row, numerals.values(data, start, end), strict=False):
+            width = max(len(argument.components), 1)
+            if argument.kind == KIND:
+                x, y, z = row[column : column + width]
+                yield Colour(span, (x, y, z), None)
+            column += width

@@ -14,8 +14,11 @@ from tree_sitter import Tree
 
 from m3d_language import blank_comments
 from m3d_language.prefix import NOTHING, Prefix, Token, read_prefix
-from m3d_language.table import LANGUAGE, Argument, Block, Statement, Table
+from m3d_language.table import LANGUAGE, Block, Statement, Table
+from m3dc.syntax import numerals
+from m3dc.syntax.recovery import lexer
 
+from .entry import Slot, slot, values
 from .names import names
 from .snapshot import Snapshot
 from .text import Span
@@ -26,30 +29,13 @@ _KEYWORDS = "|".join(sorted(LANGUAGE.keywords))
 _ITEM = re.compile(rf"\b(?:{'|'.join(LANGUAGE.top)})\b|\b(?!(?:{_KEYWORDS})\b)[A-Za-z]\w*\s*=")
 _COMPLETE = re.compile(rf"\b(?:{_KEYWORDS})\b\s*(?:[A-Za-z]\w*\s*)?\{{[^{{}}]*\}}")
 _OPEN_TABLE = re.compile(r"\{[^{}A-DF-Za-df-z]{500,}\Z")
-_NUMBER = re.compile(r"[^\s<>,{]+")
-_REST = re.compile(rb"[A-Za-z0-9_.]*")
-_WORD = re.compile(rb"[A-Za-z0-9_.+-]*\Z")
 
 # How far back the beginning of the item is looked for.
 _NEAR, _FAR = 2_000, 200_000
-_LONGEST_WORD = 300
-
-
-def _numbers(arguments: tuple[Argument, ...]) -> int:
-    return sum(max(len(argument.components), 1) for argument in arguments)
 
 
 # So many numbers are whole rows in every table.
-_WHOLE_ROWS = math.lcm(*(_numbers(table.row) for block in LANGUAGE.blocks.values() for table in block.tables.values()))
-
-
-class Slot(NamedTuple):
-    """Where in a list of arguments a value stands or could stand: which argument, which `component` of a vector, and
-    its `number` when every component is counted."""
-
-    argument: Argument
-    component: int | None
-    number: int
+_WHOLE_ROWS = math.lcm(*(values(table.row) for block in LANGUAGE.blocks.values() for table in block.tables.values()))
 
 
 class Cursor(NamedTuple):
@@ -71,8 +57,7 @@ class Cursor(NamedTuple):
 def read(snapshot: Snapshot, offset: int) -> Cursor:
     """The place of a byte of the text."""
     data = snapshot.text.data
-    before = _WORD.search(data[max(offset - _LONGEST_WORD, 0) : offset])
-    start = offset - len(before[0]) if before else offset
+    start = lexer.word_start(data, offset)
     item = None if _in_comment(snapshot.analysis.tree, offset) else _item_before(data, snapshot.analysis.tree, start)
     prefix = NOTHING if item is None else read_prefix(item)
     block = _block(snapshot, prefix)
@@ -83,12 +68,6 @@ def read(snapshot: Snapshot, offset: int) -> Cursor:
 def instead(place: Cursor) -> Cursor:
     """The same place, were what was begun there not begun."""
     return place._replace(prefix=place.prefix._replace(expected=place.prefix.instead, member=()), entry=None, slot=None)
-
-
-def word_end(snapshot: Snapshot, offset: int) -> int:
-    """Where the word ends that a byte is in."""
-    after = _REST.match(snapshot.text.data, offset)
-    return after.end() if after else offset
 
 
 def _in_comment(tree: Tree, offset: int) -> bool:
@@ -133,12 +112,12 @@ def _without_complete(text: str) -> str:
 
 def _shortened(table: re.Match[str]) -> str:
     """A table that goes on at the cursor, without most of its rows: as many numbers are left out as make whole rows."""
-    text = table[0]
-    starts = [number.start() for number in _NUMBER.finditer(text)]
+    data = table[0].encode()
+    starts = [start for start, _ in numerals.scalars(data, 0, len(data))]
     left_out = (len(starts) - 2 * _WHOLE_ROWS) // _WHOLE_ROWS * _WHOLE_ROWS
     if left_out <= 0:
-        return text
-    return text[: starts[_WHOLE_ROWS]] + text[starts[_WHOLE_ROWS + left_out] :]
+        return table[0]
+    return (data[: starts[_WHOLE_ROWS]] + data[starts[_WHOLE_ROWS + left_out] :]).decode()
 
 
 def _last_item(text: str) -> int | None:
@@ -185,36 +164,19 @@ def _entry(prefix: Prefix, block: Block | None) -> Statement | Table | None:
 
 def _slot(prefix: Prefix, entry: Statement | Table | None) -> Slot | None:
     """The argument that the next value is, or the last one, if none can follow."""
-    match entry:
-        case Statement(arguments=arguments) if arguments:
-            return _walk(arguments, (), prefix.member[1:])
-        case Table():
-            return _walk(entry.head, entry.row, prefix.member)
-        case _:
-            return None
-
-
-def _walk(head: tuple[Argument, ...], row: tuple[Argument, ...], tokens: tuple[Token, ...]) -> Slot:
-    """Past the values that are there: those of the head, and then of rows."""
-    index, component = 0, None
-    for token in tokens:
+    if entry is None:
+        return None
+    number, component = 0, None
+    for token in prefix.member[1:] if isinstance(entry, Statement) else prefix.member:
         match token.terminal:
             case "LANGLE":
                 component = 0
             case "COMMA" if component is not None:
                 component += 1
             case "RANGLE":
-                component, index = None, index + 1
+                component, number = None, number + 1
             case "NUMERAL" | "IDENTIFIER" if component is None:
-                index += 1
+                number += 1
             case _:
                 pass
-    if index >= len(head) and not row:
-        index = len(head) - 1
-    arguments = [*head, *row]
-    if index >= len(arguments):
-        index = len(head) + (index - len(head)) % len(row)
-    number = _numbers(tuple(arguments[:index]))
-    argument = arguments[index]
-    component = min(component, len(argument.components) - 1) if component is not None and argument.components else None
-    return Slot(argument, component, number + (component or 0))
+    return slot(entry, number, component)

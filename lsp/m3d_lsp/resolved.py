@@ -6,16 +6,14 @@ import math
 
 import numpy as np
 
-from m3dc.ir import Extent, PrimitiveKind, SceneIR
-from m3dc.ir.lower import lower, view
-from m3dc.meaning.evaluate import World
+from m3dc.analysis import Analysis, Enclosing
+from m3dc.ir import Extent, PrimitiveKind
+from m3dc.ir.lower import shapes, view
 from m3dc.meaning.primitive import Fact, primitive_of
 from m3dc.meaning.transform import IDENTITY, Transform, unit
 from m3dc.meaning.values import Record
-from m3dc.text.places import Places
 
 from .markdown import matrix
-from .standing import Standing, in_scene
 from .summary import number, vector
 
 # What is asked about may be wrong: its numbers, too, and they are shown as they are.
@@ -24,15 +22,15 @@ _KINDS = {kind.name for kind in PrimitiveKind}
 
 
 @_HOWEVER_LARGE
-def facts(here: Standing, keyword: str) -> str:
-    """What the block that begins with a keyword, or that the innermost record is, comes to; '' if nothing is known."""
+def facts(analysis: Analysis, here: Enclosing, keyword: str) -> str:
+    """What the block that begins with a keyword, the innermost around a place, comes to; '' if nothing is known."""
     record = here.innermost
     if keyword == "TRANSFORM":
         return transformation(here)
     if keyword in _KINDS and record.block == keyword:
-        return _primitive(here, record)
+        return _primitive(analysis, here, record)
     if keyword in ("SOLID", "LIGHT") and record.block == keyword:
-        return _object(here, record)
+        return _object(analysis, record)
     if keyword in ("SUN", "SOURCE") and record.block == keyword:
         return _light(here, record)
     if keyword == "VIEW" and record.block == keyword:
@@ -41,7 +39,7 @@ def facts(here: Standing, keyword: str) -> str:
 
 
 @_HOWEVER_LARGE
-def transformation(here: Standing) -> str:
+def transformation(here: Enclosing) -> str:
     """The matrix that the statements up to a place make, and that of the innermost record in the scene."""
     scene = in_scene(here)
     parts = ["Up to here, points (as rows) are multiplied by", matrix(here.transform.matrix.tolist())]
@@ -51,13 +49,19 @@ def transformation(here: Standing) -> str:
     return "\n\n".join(parts)
 
 
+def in_scene(here: Enclosing) -> Transform:
+    """What takes the innermost record's own coordinates to those of the scene, or of the variable assigned to."""
+    outer = here.whole.transform if len(here.records) > 1 and here.whole.block in ("SOLID", "LIGHT") else IDENTITY
+    return here.transform.then(outer)
+
+
 def of_transform(transform: Transform) -> str:
     """A matrix, and where it takes the origin."""
     return f"{matrix(transform.matrix.tolist())}\n\nThe origin goes to `{vector(transform.points(np.zeros(3)))}`."
 
 
 @_HOWEVER_LARGE
-def point(here: Standing, value: tuple[float, float, float]) -> str:
+def point(here: Enclosing, value: tuple[float, float, float]) -> str:
     """Where a point of a primitive is in the scene; '' if it is not moved."""
     transform = in_scene(here)
     if here.innermost.block not in _KINDS or transform is IDENTITY:
@@ -65,16 +69,16 @@ def point(here: Standing, value: tuple[float, float, float]) -> str:
     return f"{_where(here)} `{vector(transform.points(np.array(value)))}`"
 
 
-def _where(here: Standing) -> str:
-    return "In the scene:" if here.whole.block in ("SOLID", "LIGHT") and here.made.value is None else "Moved to:"
+def _where(here: Enclosing) -> str:
+    return "In the scene:" if here.whole.block in ("SOLID", "LIGHT") and not here.is_variable else "Moved to:"
 
 
-def _primitive(here: Standing, record: Record) -> str:
+def _primitive(analysis: Analysis, here: Enclosing, record: Record) -> str:
     transform = here.whole.transform if len(here.records) > 1 else IDENTITY
-    ir = _alone(record, transform, here.places)
-    lines = [", ".join(map(_fact, line)) for line in primitive_of(record).facts(ir.tables, 0)]
-    lines += _extent(ir.scene.extent)
-    where = "In the scene" if here.made.value is None else "With its transform"
+    shape = shapes((record,), transform, analysis.places)
+    lines = [", ".join(map(_fact, line)) for line in primitive_of(record).facts(shape.tables, 0)]
+    lines += _extent(shape.extent)
+    where = "With its transform" if here.is_variable else "In the scene"
     return f"{where}:\n\n" + _list(lines) + _matrix(in_scene(here))
 
 
@@ -88,17 +92,16 @@ def _fact(fact: Fact) -> str:
     return f"{fact.what} {', '.join(shown)}"
 
 
-def _object(here: Standing, record: Record) -> str:
-    ir = _alone_object(record, here.places)
+def _object(analysis: Analysis, record: Record) -> str:
     counts: dict[str, int] = {}
     for part in record.parts:
         counts[part.block] = counts.get(part.block, 0) + 1
     lines = [", ".join(f"{count} {keyword}" for keyword, count in counts.items())] if counts else []
-    lines += _extent(ir.scene.extent)
+    lines += _extent(shapes(record.parts, record.transform, analysis.places).extent)
     return f"In the scene:\n\n{_list(lines)}{_matrix(record.transform)}" if lines else ""
 
 
-def _light(here: Standing, record: Record) -> str:
+def _light(here: Enclosing, record: Record) -> str:
     direction = unit(np.array(record.vector("DIRECTION")))
     if here.whole.block == "LIGHT":
         direction = unit(here.whole.transform.ways(direction))
@@ -121,20 +124,6 @@ def _view(record: Record) -> str:
         f"field of view {number(camera.fov)} x {number(height)} degrees",
         f"{camera.width} x {camera.height} pixels, each {camera.fov * 60 / camera.width:.3g} arcminutes wide",
     ])  # fmt: skip
-
-
-def _alone(part: Record, transform: Transform, places: Places) -> SceneIR:
-    """The IR of one primitive in an object with a transform."""
-    solid = Record("SOLID", part.span)
-    solid.parts, solid.transform = (part,), transform
-    return _alone_object(solid, places)
-
-
-def _alone_object(record: Record, places: Places) -> SceneIR:
-    """The IR of the primitives of one solid or light."""
-    solid = Record("SOLID", record.span)
-    solid.parts, solid.transform = record.parts, record.transform
-    return lower(World(Record("SCENE", record.span), (solid,), (), ()), "", places)
 
 
 def _extent(extent: Extent | None) -> list[str]:

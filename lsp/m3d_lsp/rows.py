@@ -7,12 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from m3dc.analysis import Enclosing
 from m3dc.meaning import program
 from m3dc.meaning.values import Record, TableValue
 
 from .air import EARTH_CURVATURE, Air
 from .markdown import shown
-from .standing import Standing, in_scene
+from .resolved import in_scene
 from .summary import number, vector
 
 
@@ -24,19 +25,21 @@ class Row(NamedTuple):
     place: int
 
 
-def row_at(here: Standing, offset: int) -> Row | None:
+def row_at(here: Enclosing, offset: int) -> Row | None:
     """The row of the table around a byte; None in its head, and where the table could not be read."""
-    member = here.member
-    if not isinstance(member, program.Table):
+    member, item = here.path.member, here.path.item
+    value = here.innermost.tables.get(member.entry.keyword) if isinstance(member, program.Table) else None
+    if value is None or not isinstance(member, program.Table):
         return None
-    value = here.innermost.tables.get(member.entry.keyword)
-    if value is None:
-        return None
-    starts = row_starts(member, here.item.start)
+    starts = row_starts(member, item.start)
     row = int(np.searchsorted(starts, offset, side="right")) - 1
-    # Colour ranges are added to those there are already.
-    index = row + len(value.rows) - len(starts)
-    return Row(row, value, index) if row >= 0 and 0 <= index < len(value.rows) else None
+    if row < 0:
+        return None
+    if value.span.start == member.span.at(item.base).start:
+        return Row(row, value, row + len(value.rows) - len(starts))  # COLORS come after those there are already
+    places = value.offsets.astype(np.int64) + value.span.start
+    found = np.flatnonzero(places == int(starts[row]) - item.start + item.base)
+    return Row(row, value, int(found[0])) if found.size else None  # a later PROFILE took its place
 
 
 def row_starts(table: program.Table, start: int) -> NDArray[np.int64]:
@@ -46,12 +49,12 @@ def row_starts(table: program.Table, start: int) -> NDArray[np.int64]:
     return np.array([row[0].span.within(start)[0] for row in table.rows], np.int64)
 
 
-def facts(here: Standing, offset: int, *, images: bool) -> str:
+def facts(here: Enclosing, offset: int, *, images: bool) -> str:
     """What the row around a byte says; '' where there is none."""
     row = row_at(here, offset)
     if row is None:
         return ""
-    keyword = here.member.entry.keyword if here.member is not None else ""
+    keyword = here.path.member.entry.keyword if here.path.member is not None else ""
     values = row.table.rows[row.place]
     match keyword:
         case "VERTICES":
@@ -68,7 +71,7 @@ def facts(here: Standing, offset: int, *, images: bool) -> str:
             return ""
 
 
-def _vertex(here: Standing, row: Row) -> str:
+def _vertex(here: Enclosing, row: Row) -> str:
     values = row.table.rows[row.place]
     name = f"Vertex **{row.place}** of {len(row.table.rows)}, counted from 0"
     if len(row.table.head) == 2:
@@ -78,7 +81,7 @@ def _vertex(here: Standing, row: Row) -> str:
     return f"{name}: `{vector(values)}`" + ("" if np.array_equal(scene, values) else f"\n\nMoved to `{vector(scene)}`")
 
 
-def _facet(here: Standing, row: Row) -> str:
+def _facet(here: Enclosing, row: Row) -> str:
     vertices = here.innermost.tables.get("VERTICES")
     lines = [f"Facet {row.place + 1} of {len(row.table.rows)}:\n"]
     for corner in row.table.rows[row.place][:3].astype(int).tolist():

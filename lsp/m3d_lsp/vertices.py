@@ -11,10 +11,9 @@ from m3d_language import blank_comments
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import TableValue
+from m3dc.syntax import ast
 
-from .standing import Standing, standing
 from .text import Span
-from .tree import ancestors, leaf_at
 
 VERTICES, FACETS = "VERTICES", ("FACETS", "SFACETS")
 
@@ -33,42 +32,30 @@ class Vertex(NamedTuple):
 def vertex_at(analysis: Analysis, offset: int) -> Vertex | None:
     """The vertex that the row, or the corner of a facet, at a byte stands for; None elsewhere, and where the mesh is
     wrong."""
-    leaf = leaf_at(analysis.tree, offset)
-    if not any(node.type == "table" for node in ancestors(leaf)):
+    at = ast.locate(analysis.items, (offset, offset))
+    here = analysis.enclosing(at) if at is not None and isinstance(at.path[-1], ast.Table) else None
+    if here is None or not isinstance(here.path.member, program.Table):
         return None
-    here = standing(analysis, offset)
-    if here is None or not isinstance(here.member, program.Table):
-        return None
-    whole = standing(analysis, _end_of_block(here))
-    if whole is None:
-        return None
-    tables = whole.innermost.tables
+    tables = here.innermost.tables
     vertices = tables.get(VERTICES)
     facets = next((tables[keyword] for keyword in FACETS if keyword in tables), None)
-    keyword = here.member.entry.keyword
+    keyword = here.path.member.entry.keyword
     if vertices is None or facets is None or keyword not in (VERTICES, *FACETS):
         return None
-    rows = _Rows(whole, vertices, analysis.source.data), _Rows(whole, facets, analysis.source.data)
+    rows = _Rows(analysis, vertices), _Rows(analysis, facets)
     number = rows[0].at(offset) if keyword == VERTICES else rows[1].corner(offset)
     if number is None or not 0 <= number < len(vertices.rows):
         return None
     return Vertex(number, rows[0].values(number)[0], rows[1].corners(number))
 
 
-def _end_of_block(here: Standing) -> int:
-    """The last byte of the block about a place."""
-    around = here.blocks[-1] if here.blocks else here.item.content
-    assert isinstance(around, (program.Block, program.Assignment))
-    return around.span.within(here.item.start)[1] - 1
-
-
 class _Rows:
     """The rows of a table in the text."""
 
-    def __init__(self, here: Standing, table: TableValue, data: bytes) -> None:
+    def __init__(self, analysis: Analysis, table: TableValue) -> None:
         self._table = table
-        self._data = data
-        self._start, self._end = here.places.absolute(table.span).bytes
+        self._data = analysis.source.data
+        self._start, self._end = analysis.places.absolute(table.span).bytes
 
     def at(self, offset: int) -> int | None:
         """The row that a byte stands in."""

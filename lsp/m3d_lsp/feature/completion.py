@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 
 from lsprotocol import types
 
@@ -20,7 +21,8 @@ from m3d_language.formal import END
 from m3d_language.phrases import written
 from m3d_language.table import LANGUAGE, Argument, Block, Default, Statement
 from m3dc.meaning.values import Value
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast
+from m3dc.syntax.recovery import lexer
 
 from .. import cursor, explain, snippets
 from ..comments import about_variable, comments
@@ -37,8 +39,8 @@ FIRST, SECOND, THIRD, LAST = "1", "2", "3", "4"
 # What a block may hold more than once, besides the blocks that add something: these add to one another.
 REPEATED = {"TRANSFORM", "COLORS"}
 
-# What may stand between a word and what belongs to it, and that.
-_FOLLOWED = re.compile(rb"(?:\s|/\*(?:[^*]|\*(?!/))*\*/)*(?:([{<=0-9+.-])|([A-Za-z]\w*)(\s*=)?)")
+# The tokens that a keyword or a target is filled in with.
+FILLING = frozenset(("{", "<", "=", "number", "word", "+", "-", "."))
 _BRACE_OR_WORD = re.compile(rb"[{}]|\b[A-Z][A-Z0-9]*\b")
 # How far around the cursor the members of its block are looked for, in bytes.
 NEAR = 20_000
@@ -103,19 +105,18 @@ def _proposals(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionIt
 
 
 def _word_end(snapshot: Snapshot, place: Cursor) -> int:
-    return cursor.word_end(snapshot, place.word[1])
+    return lexer.word_end(snapshot.text.data, place.word[1])
 
 
-def _is_followed(snapshot: Snapshot, place: Cursor, what: bytes = b"{<=0123456789+.-") -> bool:
+def _is_followed(snapshot: Snapshot, place: Cursor, what: frozenset[str] = FILLING) -> bool:
     """Whether what a keyword or a target would be filled in with stands behind the cursor's word already: a brace, an
-    argument, the name that a block copies, an equals sign. `what`: the characters that count; all of them count a name
-    too."""
-    match = _FOLLOWED.match(snapshot.text.data, _word_end(snapshot, place))
-    if match is None:
+    argument, the name that a block copies, an equals sign. `what` are the kinds of tokens that count. A word that is
+    assigned to is none of them: it begins an item."""
+    ahead = list(islice(lexer.tokens(snapshot.text.data, _word_end(snapshot, place)), 2))
+    if not ahead:
         return False
-    if match[1] is not None:
-        return match[1] in what
-    return b"=" in what and match[3] is None and match[2].decode("ascii", "replace") not in LANGUAGE.keywords
+    is_target = ahead[0].kind == "word" and len(ahead) > 1 and ahead[1].kind == "="
+    return not is_target and (ahead[0].kind if ahead[0].kind != "other" else ahead[0].text) in what
 
 
 # --- keywords -----------------------------------------------------------------------------------------------------
@@ -256,7 +257,7 @@ def _variables(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionIt
     for name, declaration in known.declared().items():
         if declaration.span[0] > start or (wanted and declaration.type != wanted) or name == target:
             continue
-        value = known.value(name, start)
+        value = snapshot.analysis.variable(name, start)
         last = known.last_assignment(name, start)
         said = about_variable(snapshot.analysis, name, last.span if last is not None else None)
         text = "\n\n".join(escaped(remark) for remark in said)
@@ -312,7 +313,7 @@ def _values(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]
     default = entry.default if isinstance(entry, Statement) and len(entry.arguments) == 1 else None
     if default is not None and default not in often.values():
         often["the default"] = default
-    if slot.argument.components and _is_followed(snapshot, place, b"<"):
+    if slot.argument.components and _is_followed(snapshot, place, frozenset("<")):
         return
     for number, (label, value) in enumerate(often.items()):
         yield _value(snapshot, slot.argument, label, value, number)
@@ -354,7 +355,7 @@ def _form(snapshot: Snapshot, argument: Argument) -> types.CompletionItem:
 
 def _assigned(snapshot: Snapshot, place: Cursor) -> Iterator[types.CompletionItem]:
     """After `name =`: what a value of the variable's type looks like."""
-    if place.last is None or place.last.terminal != "EQUAL" or _is_followed(snapshot, place, b"{<"):
+    if place.last is None or place.last.terminal != "EQUAL" or _is_followed(snapshot, place, frozenset("{<")):
         return
     type_ = names(snapshot.analysis).type(place.prefix.member[0].text) or ""
     if type_ == "VECTOR":

@@ -13,21 +13,24 @@ import numpy as np
 from lsprotocol import types
 from tree_sitter import Node
 
-from m3d_language.table import LANGUAGE, Statement, Table
+from m3d_language.table import LANGUAGE
+from m3dc.analysis import Enclosing
 from m3dc.meaning import program
 from m3dc.meaning.transform import unit
-from m3dc.meaning.values import Record, Value, Vector
+from m3dc.meaning.values import Record, Value
+from m3dc.syntax import ast, numerals
 
 from .. import arguments, cursor, explain, resolved, rows
 from ..colours import KIND, color_variables
 from ..comments import about_variable
+from ..entry import Slot, entry_of
 from ..markdown import escaped, fenced, markup, shown
 from ..names import Role, names
 from ..registry import request
 from ..snapshot import Snapshot
-from ..standing import Standing, standing
 from ..summary import value_text, vector
-from ..tree import ancestors, leaf_at
+from ..text import Span
+from ..tree import leaf_at
 
 RULE = "\n\n---\n\n"
 
@@ -39,15 +42,18 @@ def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
     leaf = leaf_at(snapshot.analysis.tree, offset)
     if leaf is None:
         return None
+    span = leaf.start_byte, leaf.end_byte
+    at = ast.locate(snapshot.analysis.items, span)
     if leaf.type == "numeric_table":
-        text, span = _in_table(snapshot, offset), _numeral(snapshot, leaf, offset)
+        text, span = _in_table(snapshot, at, offset), numerals.around(snapshot.text.data, offset, span)
     elif leaf.type == "identifier":
-        text, span = _name(snapshot, leaf), (leaf.start_byte, leaf.end_byte)
+        text = _name(snapshot, leaf)
     elif leaf.type in LANGUAGE.keywords:
-        text, span = _keyword(snapshot, leaf), (leaf.start_byte, leaf.end_byte)
+        text = _keyword(snapshot, leaf, at)
+    elif at is not None:
+        text, span = _value(snapshot, at, span)
     else:
-        text, node = _value(snapshot, leaf)
-        span = (node.start_byte, node.end_byte)
+        return None
     if not text:
         return None
     return types.Hover(markup(text, markdown=snapshot.client.hover_markdown), snapshot.range(span))
@@ -56,25 +62,32 @@ def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
 # --- keywords -----------------------------------------------------------------------------------------------------
 
 
-def _keyword(snapshot: Snapshot, leaf: Node) -> str:
+def _keyword(snapshot: Snapshot, leaf: Node, at: ast.Located | None) -> str:
     block = cursor.read(snapshot, leaf.start_byte).block
+    here = None
+    if at is not None and isinstance(at.node, ast.Keyword):
+        block, here = entry_of(at, names(snapshot.analysis)).block, snapshot.analysis.enclosing(at)
     said = explain.keyword(leaf.type, block.keyword if block else None) or ""
-    here = standing(snapshot.analysis, leaf.start_byte)
-    known = _resolved(snapshot, leaf.type, here) if here is not None else ""
+    known = "" if at is None or here is None else _resolved(snapshot, at, here)
     return f"{known}{RULE}{said}" if known and said else known or said
 
 
-def _resolved(snapshot: Snapshot, keyword: str, here: Standing) -> str:
-    if here.member is None:
-        return resolved.facts(here, keyword)
-    inner = here.blocks[-1].entry.keyword if here.blocks else here.whole.block
-    if inner == "TRANSFORM":
+def _resolved(snapshot: Snapshot, at: ast.Located, here: Enclosing) -> str:
+    """What a keyword of the tree comes to."""
+    if here.path.member is None:
+        assert isinstance(at.node, ast.Keyword)
+        return resolved.facts(snapshot.analysis, here, at.node.text)
+    if here.path.in_transform:
         return resolved.transformation(here)
-    if not isinstance(here.member, program.Statement):
+    statement = here.path.member
+    if at.parent is None or not isinstance(statement, program.Statement):
         return ""
-    value = here.innermost.values.get(keyword)
-    if any(a.kind == KIND for a in here.member.entry.arguments) and isinstance(value, tuple):
-        return arguments.color(value, images=snapshot.client.images)
+    for expected, argument in zip(statement.entry.arguments, statement.arguments, strict=True):
+        if expected.kind == KIND:
+            # What it says, where a later statement has replaced it.
+            held = snapshot.analysis.statement_value(at.parent)
+            value = held or snapshot.analysis.value(argument, at.span[0])
+            return arguments.color(value, images=snapshot.client.images) if isinstance(value, tuple) else ""
     return ""
 
 
@@ -87,7 +100,7 @@ def _name(snapshot: Snapshot, leaf: Node) -> str:
     declaration = known.declaration(name)
     if declaration is None:
         return f"`{name}` is not declared in a VARIABLES block"
-    value = known.value(name, leaf.start_byte)
+    value = snapshot.analysis.variable(name, leaf.start_byte)
     head = f"{declaration.type} {name}"
     parts = [fenced(head if value is None else f"{head} = {value_text(value)}")]
     at = known.at(leaf.start_byte)
@@ -132,37 +145,34 @@ def _line(snapshot: Snapshot, offset: int) -> str:
 # --- values -------------------------------------------------------------------------------------------------------
 
 
-def _value(snapshot: Snapshot, leaf: Node) -> tuple[str, Node]:
-    """A number or a vector outside of long tables: what is known, and the node that it is known of."""
-    around = next((node for node in ancestors(leaf) if node.type == "vector"), None)
+def _value(snapshot: Snapshot, at: ast.Located, leaf: Span) -> tuple[str, Span]:
+    """A number or a vector outside of long tables: what is known, and the part of the text that it is known of."""
+    vector = at if isinstance(at.node, ast.Vector) else at.parent
+    if vector is not None and not isinstance(vector.node, ast.Vector):
+        vector = None
+    here = snapshot.analysis.enclosing(at)
+    entry = entry_of(at, names(snapshot.analysis))
+    value = snapshot.analysis.value_of(at)
     found: list[str] = []
-    here = standing(snapshot.analysis, leaf.start_byte)
-    place = cursor.read(snapshot, leaf.start_byte)
-    if leaf.type == "number" and place.slot is not None and place.entry is not None:
-        found.append(_number(snapshot, place.entry, place.slot, leaf))
-    if around is not None:
-        found.append(_vector(snapshot, around, place.slot, here))
-        if leaf.type != "number" and place.slot is not None and place.entry is not None:
-            found.insert(0, arguments.of_vector(place.entry, place.slot))
+    if entry.member is not None and entry.slot is not None:
+        if isinstance(at.node, ast.Number) and isinstance(value, float):
+            metres = "MIRAGE" in snapshot.analysis.world.scene.nested
+            found.append(arguments.facts(entry.member, entry.slot, value, metres=metres))
+        elif vector is not None:
+            found.append(arguments.of_vector(entry.member, entry.slot))
+    if vector is not None:
+        found.append(_vector(snapshot, vector, entry.slot, here))
     if here is not None:
-        found.append(rows.facts(here, leaf.start_byte, images=snapshot.client.images))
-    return "\n\n".join(part for part in found if part), leaf if leaf.type == "number" else around or leaf
+        found.append(rows.facts(here, leaf[0], images=snapshot.client.images))
+    span = leaf if isinstance(at.node, ast.Number) or vector is None else vector.span
+    return "\n\n".join(part for part in found if part), span
 
 
-def _number(snapshot: Snapshot, entry: Statement | Table, slot: cursor.Slot, leaf: Node) -> str:
-    try:
-        value = float(snapshot.text.part((leaf.start_byte, leaf.end_byte)))
-    except ValueError:
+def _vector(snapshot: Snapshot, at: ast.Located, slot: Slot | None, here: Enclosing | None) -> str:
+    value = snapshot.analysis.value_of(at)
+    if not isinstance(value, tuple):
         return ""
-    metres = "MIRAGE" in snapshot.analysis.world.scene.nested
-    return arguments.facts(entry, slot, value, metres=metres)
-
-
-def _vector(snapshot: Snapshot, node: Node, slot: cursor.Slot | None, here: Standing | None) -> str:
-    value = _vector_value(snapshot, node)
-    if value is None:
-        return ""
-    kind = slot.argument.kind if slot is not None else _kind_of_target(snapshot, node)
+    kind = slot.argument.kind if slot is not None else _kind_of_target(snapshot, at)
     if kind == KIND:
         return arguments.color(value, images=snapshot.client.images)
     if kind == "direction" and any(value):
@@ -170,48 +180,17 @@ def _vector(snapshot: Snapshot, node: Node, slot: cursor.Slot | None, here: Stan
     return resolved.point(here, value) if kind == "point" and here is not None else ""
 
 
-def _kind_of_target(snapshot: Snapshot, node: Node) -> str:
+def _kind_of_target(snapshot: Snapshot, at: ast.Located) -> str:
     """What a vector that is assigned to a variable is used as."""
-    target = node.parent.child_by_field_name("target") if node.parent is not None else None
-    name = snapshot.text.part((target.start_byte, target.end_byte)) if target is not None else ""
+    item = at.path[-1]
+    name = item.target.text if isinstance(item, ast.Assignment) else ""
     return KIND if name in color_variables(snapshot.analysis) else ""
 
 
-def _vector_value(snapshot: Snapshot, node: Node) -> Vector | None:
-    """What a vector in the text is worth; None where a component is not known."""
-    known = names(snapshot.analysis)
-    components: list[float] = []
-    for child in node.children_by_field_name("component"):
-        text = snapshot.text.part((child.start_byte, child.end_byte))
-        value = known.value(text, child.start_byte) if child.type == "identifier" else _float(text)
-        if not isinstance(value, (int, float)):
-            return None
-        components.append(value)
-    return (components[0], components[1], components[2]) if len(components) == 3 else None
-
-
-def _float(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-def _in_table(snapshot: Snapshot, offset: int) -> str:
-    here = standing(snapshot.analysis, offset)
-    if here is None or not isinstance(here.member, program.Table):
+def _in_table(snapshot: Snapshot, at: ast.Located | None, offset: int) -> str:
+    here = None if at is None else snapshot.analysis.enclosing(at)
+    if here is None or not isinstance(here.path.member, program.Table):
         return ""
     return rows.facts(here, offset, images=snapshot.client.images) or explain.table(
-        here.member.entry, LANGUAGE.blocks[here.innermost.block]
+        here.path.member.entry, LANGUAGE.blocks[here.innermost.block]
     )
-
-
-def _numeral(snapshot: Snapshot, leaf: Node, offset: int) -> tuple[int, int]:
-    """The numeral of a long table that a byte belongs to."""
-    data = snapshot.text.data
-    start = end = offset
-    while start > leaf.start_byte and data[start - 1] not in b" \t\r\n<>,":
-        start -= 1
-    while end < leaf.end_byte and data[end] not in b" \t\r\n<>,":
-        end += 1
-    return start, end

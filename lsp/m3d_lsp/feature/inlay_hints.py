@@ -14,7 +14,6 @@ worked out.
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
@@ -23,11 +22,10 @@ import numpy as np
 from lsprotocol import types
 from numpy.typing import NDArray
 
-from m3d_language import blank_comments
 from m3d_language.table import Argument
 from m3dc.meaning import program
 from m3dc.meaning.values import Record, Value
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast, numerals
 from m3dc.text.span import Local
 
 from ..explain import argument_name
@@ -46,10 +44,6 @@ FIGURE_SPACE = "\N{FIGURE SPACE}"
 
 # A hint, and the byte that it stands at.
 _Placed: TypeAlias = tuple[int, types.InlayHint]
-
-# A number or a vector of numbers that is assigned.
-_NUMBERS = re.compile(rb"\s*=\s*(?:[+-]?\.?[0-9]|<[\s0-9.,eE+-]*>)")
-_VALUE = re.compile(r"<[^>]*>?|[^\s<>,{}]+")
 
 
 @request(types.TEXT_DOCUMENT_INLAY_HINT, types.InlayHintOptions(resolve_provider=False), nothing=[])
@@ -146,18 +140,18 @@ class _Hints:
         """Where the arguments of a table's head begin."""
         if table.bulk is None:
             return [argument.span.within(self._start)[0] for argument in table.head]
-        start, end = Local(table.keyword.span.end, table.span.end).within(self._start)
-        return self._numbers(start, int(starts[0]) if len(starts) else end)
+        (_, start), (_, end) = table.keyword.span.within(self._start), table.span.within(self._start)
+        return self._written_values(start, int(starts[0]) if len(starts) else end)
 
     def _first_row(self, table: program.Table, starts: NDArray[np.int64]) -> Sequence[int]:
         if table.bulk is None:
             return [argument.span.within(self._start)[0] for argument in table.rows[0]]
-        return self._numbers(int(starts[0]), int(starts[1]) if len(starts) > 1 else table.span.within(self._start)[1])
+        _, end = table.span.within(self._start)
+        return self._written_values(int(starts[0]), int(starts[1]) if len(starts) > 1 else end)
 
-    def _numbers(self, start: int, end: int) -> list[int]:
+    def _written_values(self, start: int, end: int) -> list[int]:
         """Where the values in a part of a table begin."""
-        text = self._snapshot.text.data[start:end].decode("latin-1")
-        return [start + match.start() for match in _VALUE.finditer(blank_comments(text))]
+        return [place for place, _ in numerals.values(self._snapshot.text.data, start, end)]
 
     # --- values -------------------------------------------------------------------------------------------------
 
@@ -171,7 +165,7 @@ class _Hints:
             for name in argument.components if isinstance(argument, ast.Vector) else (argument,):
                 if isinstance(name, ast.Name):
                     start, end = name.span.within(self._start)
-                    value = self._names.value(name.text, start)
+                    value = self._snapshot.analysis.variable(name.text, start)
                     if value is None or isinstance(value, Record):
                         continue
                     if not self._is_said(name.text, start, value):
@@ -187,8 +181,17 @@ class _Hints:
         if text.line_of(offset) - text.line_of(last.span[0]) > 1:
             return False
         if last.role is Role.ASSIGNMENT:
-            return _NUMBERS.match(text.data, last.span[1]) is not None
-        return self._names.value(name, last.span[0]) == value
+            return self._is_written(last.span)
+        return self._snapshot.analysis.variable(name, last.span[0]) == value
+
+    def _is_written(self, target: Span) -> bool:
+        """Whether a number, or a vector of numbers, is assigned to the target at a place."""
+        at = ast.locate(self._snapshot.analysis.items, target)
+        item = None if at is None else at.path[-1]
+        value = item.value if isinstance(item, ast.Assignment) else None
+        if isinstance(value, ast.Vector):
+            return all(isinstance(component, ast.Number) for component in value.components)
+        return isinstance(value, ast.Number)
 
     def _hint(self, offset: int, label: str, kind: types.InlayHintKind | None, *, before: bool) -> _Placed:
         position = self._snapshot.text.position(offset)

@@ -22,7 +22,7 @@ def inline_values(snapshot: Snapshot, params: types.InlineValueParams) -> list[t
     for occurrence in known.occurrences:
         if occurrence.role is Role.DECLARATION or not start <= occurrence.span[0] <= end:
             continue
-        value = known.value(occurrence.name, occurrence.span[0])
+        value = snapshot.analysis.variable(occurrence.name, occurrence.span[0])
         if isinstance(value, (float, int, tuple)):
             range_ = snapshot.range(occurrence.span)
             text = types.InlineValueText(range_, f"{occurrence.name} = {value_text(value)}")

@@ -52,22 +52,19 @@ class Site:
         return tuple(d for d in self.analysis.diagnostics if d.span.start <= end and d.span.end >= start)
 
     @cached_property
+    def node(self) -> ast.Located | None:
+        """The innermost node of the tree that holds the place."""
+        return ast.locate(self.analysis.items, self.span)
+
+    @property
     def top(self) -> ast.TopLevel | None:
         """The top-level item that holds the place."""
-        return next((top for top in self.analysis.items if _holds(top.place(top.item.span), self.span)), None)
+        return None if self.node is None else self.node.top
 
     @cached_property
     def path(self) -> tuple[ast.Item, ...]:
         """The items that hold the place, from the top-level one inwards."""
-        if self.top is None:
-            return ()
-        found: list[ast.Item] = [self.top.item]
-        while True:
-            body = found[-1].body if isinstance(found[-1], (ast.Block, ast.Assignment)) else None
-            inner = next((i for i in (body.items if body else ()) if _holds(self.real(i.span), self.span)), None)
-            if inner is None:
-                return tuple(found)
-            found.append(inner)
+        return () if self.node is None else self.node.path
 
     @cached_property
     def is_sound(self) -> bool:
@@ -90,7 +87,3 @@ class Site:
     def at(self, offset: int) -> Site:
         """The same document at another place."""
         return Site(self.snapshot, (offset, offset))
-
-
-def _holds(outer: Span, inner: Span) -> bool:
-    return outer[0] <= inner[0] and inner[1] <= outer[1]

@@ -20,7 +20,6 @@ from m3dc.meaning.transform import unit
 from m3dc.meaning.values import Mesh, Record, spelled
 from m3dc.syntax.parse import ast
 
-from ...standing import standing
 from .action import Action, Edit, Site
 
 FLAT, SMOOTH, FLAG = "FACETS", "SFACETS", "PHONG"
@@ -57,14 +56,12 @@ def _table(site: Site) -> ast.Table | None:
 
 def _record(site: Site, table: ast.Table) -> Record | None:
     """The primitive that the table belongs to, if it has a mesh."""
-    outer = site.path[-2]
-    assert site.top is not None
-    around = standing(site.analysis, site.real(outer.span)[1] - 1)
+    around = None if site.node is None else site.analysis.enclosing(site.node)
     if around is None:
         return None
     record = around.innermost
     value = record.tables.get(FLAT)
-    own = value is not None and around.places.absolute(value.span).bytes == site.real(table.span)
+    own = value is not None and site.analysis.places.absolute(value.span).bytes == site.real(table.span)
     return record if own and record.mesh is not None and len(record.mesh.facets) else None
 
 

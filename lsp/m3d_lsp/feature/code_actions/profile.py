@@ -8,9 +8,8 @@ import numpy as np
 from lsprotocol import types
 
 from m3dc.diagnostics import catalogue
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast
 
-from ...standing import standing
 from ...text import Span
 from .action import Action, Edit, Site
 
@@ -20,9 +19,9 @@ KEYWORD = "PROFILE"
 def find(site: Site) -> Iterator[Action]:
     """For a table at the place that is not sorted."""
     table = site.path[-1] if site.path else None
-    if not isinstance(table, ast.Table) or table.keyword.text != KEYWORD:
+    if site.node is None or not isinstance(table, ast.Table) or table.keyword.text != KEYWORD:
         return
-    edit = _sorted(site, table)
+    edit = _sorted(site, site.node.item)
     if edit is not None:
         unsorted = (d for d in site.analysis.diagnostics if d.code == catalogue.PROFILE_NOT_INCREASING.code)
         mends = tuple(d for d in unsorted if _is_in(d.span.bytes, site, table))
@@ -35,12 +34,11 @@ def _is_in(span: Span, site: Site, table: ast.Table) -> bool:
     return start <= span[0] < end
 
 
-def _sorted(site: Site, table: ast.Table) -> Edit | None:
+def _sorted(site: Site, table: ast.Located) -> Edit | None:
     """The rows in their new order, each with the comments behind it. None if they are in order, or can not be read."""
-    start, end = site.real(table.span)
-    around = standing(site.analysis, end - 1)
-    value = None if around is None else around.innermost.tables.get(KEYWORD)
-    if value is None or site.analysis.places.absolute(value.span).start != start or len(value.rows) < 2:
+    start, end = table.span
+    value = site.analysis.table_value(table)
+    if value is None or len(value.rows) < 2:
         return None
     order = np.argsort(value.rows[:, 0], kind="stable")
     if (np.diff(order) > 0).all():

@@ -76,6 +76,7 @@ generate: tools ## Write everything that is made of something else: of grammar/l
 	$(BIN)/python -m tools.ir_crate
 	$(BIN)/python -m tools.m3ir_page
 	$(BIN)/python -m tools.render_options
+	$(BIN)/python -m tools.preview_protocol
 	$(BIN)/python -m tools.diagnostics_page
 
 pins: tools ## Write the newest allowed version of every Python package into pyproject.toml

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Any, TypeGuard, cast
+from typing import Any, TypeGuard, TypeVar, cast
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
 from .reading import FARTHEST
+
+Choice = TypeVar("Choice", bound=str)
 
 
 class Given:
@@ -27,10 +29,11 @@ class Given:
         value = self._get(name)
         return value if isinstance(value, str) else _refuse(name, "a string", value)
 
-    def one_of(self, name: str, choices: Collection[str]) -> str:
+    def one_of(self, name: str, choices: Collection[Choice]) -> Choice:
         value = self._get(name)
-        if isinstance(value, str) and value in choices:
-            return value
+        for choice in choices:
+            if value == choice:
+                return choice
         return _refuse(name, " or ".join(f'"{choice}"' for choice in choices), value)
 
     def whole(self, name: str, least: int, default: int | None = None) -> int:
@@ -39,6 +42,13 @@ class Given:
         if value is None and default is not None:
             return default
         return value if _is_whole(value, least) else _refuse(name, f"a whole number, {least} or more", value)
+
+    def number(self, name: str) -> float | None:
+        """A number, or None where none is given."""
+        value = self._get(name)
+        if value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+            return value
+        return _refuse(name, "a number", value)
 
     def flag(self, name: str) -> bool:
         """True or false; false where nothing is given."""

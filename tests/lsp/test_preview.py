@@ -179,6 +179,22 @@ async def test_the_newest_request_wins(editor: Editor) -> None:
     assert (view.picture() == to_bytes(m3d_render.render(m3dc.compile(scene.text).ir))).all()
 
 
+async def test_tiles_name_the_job_that_they_are_of(editor: Editor) -> None:
+    view = View(editor, editor.open(BALLS), "jobs")
+    assert (await view.ask("render")).status == "done"
+    assert {tile.job for tile in view.tiles} == {None}  # none was given
+    endless = view.start("render", job=7, samples=ENDLESS)
+    await editor.client.wait_until(lambda: any(tile.job == 7 for tile in view.tiles) or None)
+    before = len(view.tiles)
+    answers = await asyncio.gather(endless, view.ask("render", job=8))
+    assert [answer.status for answer in answers] == ["cancelled", "done"]
+    jobs = [tile.job for tile in view.tiles[before:]]
+    assert set(jobs) <= {7, 8}
+    assert jobs == sorted(jobs)  # none of a request that has ended
+    with pytest.raises(JsonRpcInvalidParams, match="job must be a whole number, 1 or more"):
+        await view.ask("render", job=0)
+
+
 async def test_a_client_can_cancel(editor: Editor) -> None:
     view = View(editor, editor.open(BALLS), "cancelled")
     answer = view.start("render", "the-number", samples=ENDLESS)

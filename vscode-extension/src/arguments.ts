@@ -1,5 +1,7 @@
 /** The tasks m3dc and m3d-render as they stand in tasks.json, and the command lines that they mean. */
 
+import { RENDER_OPTION_NAMES, type RenderOptions } from "mirage3d-picture/protocol";
+
 export interface CompileTask {
   type: "m3dc";
   scene: string;
@@ -8,12 +10,11 @@ export interface CompileTask {
   arguments?: string[];
 }
 
-export interface RenderTask {
+export interface RenderTask extends RenderOptions {
   type: "m3d-render";
   scene: string;
   output?: string;
   optics?: "mirage" | "straight";
-  samples?: number;
   arguments?: string[];
 }
 
@@ -49,13 +50,19 @@ export function compileArguments(task: CompileTask): string[] {
 
 /** The arguments of m3d-render. */
 export function renderArguments(task: RenderTask): string[] {
-  const { scene, optics = "mirage", samples, arguments: more = [] } = task;
+  const { scene, optics = "mirage", arguments: more = [] } = task;
   return [
     scene,
     "-o",
     outputOf(task) ?? "",
     ...(optics === "straight" ? ["--straight"] : []),
-    ...(samples === undefined ? [] : ["--samples", String(samples)]),
+    ...RENDER_OPTION_NAMES.flatMap((name) => option(name, task[name])),
     ...more,
   ];
+}
+
+/** A render option as m3d-render takes it. */
+function option(name: string, value: number | boolean | undefined): string[] {
+  const flag = `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`;
+  return value === undefined || value === false ? [] : value === true ? [flag] : [flag, String(value)];
 }

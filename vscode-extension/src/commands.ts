@@ -85,8 +85,8 @@ async function render(server: Server, document: vscode.TextDocument | undefined)
   if (document === undefined) {
     return;
   }
-  const { show, samples } = previewSettings(document.uri).options;
-  await savePicture(server, document, show === "straight" ? "straight" : "mirage", samples);
+  const { show, render } = previewSettings(document.uri).options;
+  await savePicture(server, document, show === "straight" ? "straight" : "mirage", render);
 }
 
 async function format(document: vscode.TextDocument | undefined): Promise<void> {

@@ -3,6 +3,7 @@
 import * as vscode from "vscode";
 
 import type { Options, Show } from "mirage3d-picture/host";
+import { RENDER_OPTION_NAMES } from "mirage3d-picture/protocol";
 
 export function serverPath(): string {
   return vscode.workspace.getConfiguration("m3d").get<string>("server.path", "").trim();
@@ -21,7 +22,7 @@ export function previewSettings(scene: vscode.Uri | undefined): PreviewSettings 
       show: settings.get<Show>("optics", "mirage"),
       typingResolution: settings.get<number>("typingResolution", 0.5),
       resolution: settings.get<"pane" | "scene">("resolution", "pane"),
-      samples: settings.get<number>("samples", 1),
+      render: Object.fromEntries(RENDER_OPTION_NAMES.map((name) => [name, settings.get(name)])),
     },
     renderOn: settings.get<"type" | "save">("renderOn", "type"),
     highlightCursor: settings.get<boolean>("highlightCursor", true),

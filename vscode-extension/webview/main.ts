@@ -14,7 +14,7 @@ import type {
   Tile,
 } from "mirage3d-picture/host";
 import { Preview } from "mirage3d-picture";
-import type { Answer, FromPage, Kept, ToPage, WireTile } from "./messages";
+import type { Answer, FromPage, Kept, ToPage } from "./messages";
 
 import "mirage3d-picture/style.css";
 import "./theme.css";
@@ -104,7 +104,7 @@ class Extension implements Host {
         this.close(message.id)?.reject(new Error(message.message));
         break;
       case "tile":
-        this.questions.get(message.id)?.tile?.(decoded(message.tile));
+        this.questions.get(message.tile.job ?? 0)?.tile?.(message.tile);
         break;
       case "scene":
         this.keep({ uri: message.scene.id });
@@ -140,15 +140,6 @@ class Extension implements Host {
     this.questions.delete(id);
     return question;
   }
-}
-
-function decoded(tile: WireTile): Tile {
-  const text = atob(tile.pixels);
-  const pixels = new Uint8Array(text.length);
-  for (let index = 0; index < text.length; index++) {
-    pixels[index] = text.charCodeAt(index);
-  }
-  return { ...tile, pixels };
 }
 
 new Preview(document.body, new Extension());

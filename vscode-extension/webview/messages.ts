@@ -14,10 +14,7 @@ import type {
   Tile,
 } from "mirage3d-picture/host";
 
-/** A tile with its pixels as base64: they come so from the language server, and are only handed on. */
-export type WireTile = Omit<Tile, "pixels"> & { pixels: string };
-
-/** From the page: questions, which have an id and are answered, and wishes. */
+/** From the page: questions, which have an id and are answered, and wishes. That of a rendering is its job, too. */
 export type FromPage =
   | { type: "render"; id: number; request: RenderRequest }
   | { type: "pick"; id: number; optics: Optics; pixel: Pixel }
@@ -43,7 +40,7 @@ export type Answer = Rendered | Hit | Mask | null;
 export type ToPage =
   | { type: "answer"; id: number; answer: Answer }
   | { type: "failed"; id: number; message: string }
-  | { type: "tile"; id: number; tile: WireTile }
+  | { type: "tile"; tile: Tile }
   | { type: "scene"; scene: Scene }
   | { type: "options"; options: Partial<Options> }
   | { type: "visible"; visible: boolean }

@@ -8,7 +8,10 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render import RenderOptions
 from m3dc.ir import SceneIR
+
+from . import wire
 
 
 class Scene(NamedTuple):
@@ -19,17 +22,18 @@ class Scene(NamedTuple):
 
 
 class Draw(NamedTuple):
-    """Make a picture of a scene, show it while it becomes known, and keep it. `threads` 0 is all; `square` pixels undo
-    the scene's ASPECT."""
+    """Make a picture of a scene, show it while it becomes known, and keep it. `square` pixels undo the scene's ASPECT;
+    its tiles name the client's `preview` and `job`, and the `version` of the text."""
 
     number: int
     scene: int
-    straight: bool
     width: int
     height: int
-    samples: int
-    threads: int
+    options: RenderOptions
     square: bool
+    preview: str
+    job: int | None
+    version: int
 
 
 class Save(NamedTuple):
@@ -37,9 +41,7 @@ class Save(NamedTuple):
 
     number: int
     scene: int
-    straight: bool
-    samples: int
-    threads: int
+    options: RenderOptions
     path: str
 
 
@@ -92,16 +94,11 @@ class Ask(NamedTuple):
 ToWorker: TypeAlias = Scene | Draw | Save | Cancel | Taken | Forget | Ask
 
 
-class Tile(NamedTuple):
-    """A part of a picture that has become known, in full rows from `top` on: every `step`-th pixel of every `step`-th
-    row. `pixels` are rows x columns x (red, green, blue), a byte each."""
+class Painted(NamedTuple):
+    """A part of a picture has become known."""
 
     number: int
-    top: int
-    step: int
-    columns: int
-    rows: int
-    pixels: bytes
+    tile: wire.Tile
 
 
 class Progress(NamedTuple):
@@ -116,7 +113,7 @@ class Ended(NamedTuple):
     """A Draw or Save has come to its end: `"done"`, `"cancelled"`, or `"error"` with a message."""
 
     number: int
-    status: str
+    status: wire.Status
     message: str = ""
     seconds: float = 0.0
     bent: bool = False
@@ -129,4 +126,4 @@ class Answer(NamedTuple):
     value: Any
 
 
-FromWorker: TypeAlias = Tile | Progress | Ended | Answer
+FromWorker: TypeAlias = Painted | Progress | Ended | Answer

@@ -20,13 +20,13 @@ from .messages import (
     Forget,
     FromWorker,
     Mask,
+    Painted,
     Pick,
     Progress,
     Ray,
     Save,
     Scene,
     Taken,
-    Tile,
     ToWorker,
 )
 from .process import Process
@@ -37,7 +37,7 @@ class Job:
     """A picture that is being made. `hears` is told of its tiles, or of how far it is."""
 
     scene: int
-    hears: Callable[[Tile | Progress], None]
+    hears: Callable[[Painted | Progress], None]
     ended: asyncio.Future[Ended]
 
 
@@ -108,7 +108,7 @@ class Previews:
     # --- the process --------------------------------------------------------------------------------------------------
 
     async def work(
-        self, analysis: Analysis, make: Callable[[int, int], Draw | Save], hears: Callable[[Tile | Progress], None]
+        self, analysis: Analysis, make: Callable[[int, int], Draw | Save], hears: Callable[[Painted | Progress], None]
     ) -> Ended:
         """Have a picture made of a document's scene; `make` makes the message of the picture's number and the scene's.
         Cancelling this cancels that."""
@@ -186,10 +186,10 @@ class Previews:
                     job.ended.set_result(message)
                 else:
                     self._forget([message.number])
-            case Tile() | Progress():
+            case Painted() | Progress():
                 if job is not None:
                     job.hears(message)
-                if isinstance(message, Tile):
+                if isinstance(message, Painted):
                     self._tell(Taken(message.number))
 
     def _died(self, why: str) -> None:

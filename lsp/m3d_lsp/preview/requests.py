@@ -7,81 +7,89 @@ can follow the light that came to one.
 from __future__ import annotations
 
 import asyncio
-import base64
 import math
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from m3d_render import RenderOptions
 from m3dc.ir import SceneIR, View
 
 from ..documents import file_name
-from ..given import Given
 from ..good import Good, last_good
 from ..registry import server_request
 from ..text import Span
-from .messages import Draw, Ended, Mask, Pick, Progress, Ray, Save, Tile
+from . import wire
+from .messages import Draw, Mask, Painted, Pick, Progress, Ray, Save
 from .previews import Shown
 from .progress import WorkDone
 
 if TYPE_CHECKING:
     from ..server import Server
 
-OPTICS = ("straight", "mirage")
-
 # A picture with all that is kept of it takes 64 bytes a pixel.
 MOST_PIXELS = 4_000_000
-ANY_SIDE = 65_535
 
 NOT_GOOD = "the scene has errors, and no earlier version without any is known; mend them to see a picture"
 NOT_SAVED = "the scene has errors; mend them before saving its picture"
 
 
-@server_request("m3d/preview/render")
-async def render(server: Server, params: Any) -> dict[str, Any]:
+@server_request(wire.RENDER)
+async def render(server: Server, params: Any) -> wire.Rendered:
     """A picture, notified in tiles while it is made."""
-    given = Given(params)
-    name, uri, straight = given.text("preview"), given.uri(), given.one_of("optics", OPTICS) == "straight"
-    samples = given.whole("samples", 1, 1)
-    most = given.whole("maxWidth", 1, ANY_SIDE), given.whole("maxHeight", 1, ANY_SIDE)
-    fill = given.flag("fill")
-    answer = {"status": "cancelled", "version": 0, "stale": False, "width": 0, "height": 0, "seconds": 0.0}
-    answer |= {"bent": False, "message": None, "aspect": 1.0, "ownWidth": 0, "ownHeight": 0}
+    asked = wire.RenderParams.read(params)
+    most = asked.max_width, asked.max_height
+    answer: wire.Rendered = {
+        "status": "cancelled",
+        "version": 0,
+        "stale": False,
+        "width": 0,
+        "height": 0,
+        "aspect": 1.0,
+        "ownWidth": 0,
+        "ownHeight": 0,
+        "seconds": 0.0,
+        "bent": False,
+        "message": None,
+    }
     previews = server.previews
-    previews.begin(name)
+    previews.begin(asked.preview)
     shown: Shown | None = None
     try:
-        good = await last_good(server, uri)
+        good = await last_good(server, asked.uri)
         snapshot, ir = good.snapshot, good.snapshot.analysis.ir
-        answer |= {"version": snapshot.version, "stale": good.stale}
+        answer["version"], answer["stale"] = snapshot.version, good.stale
         if not snapshot.analysis.ok:
-            return answer | {"status": "error", "message": NOT_GOOD}
+            answer["status"], answer["message"] = "error", NOT_GOOD
+            return answer
         view = ir.scene.view
-        width, height = filling(view, *most) if fill else fit(view.width, view.height, *most)
-        answer |= {"width": width, "height": height, "aspect": 1.0 if fill else view.aspect}
-        answer |= {"ownWidth": view.width, "ownHeight": view.height}
+        width, height = filling(view, *most) if asked.fill else fit(view.width, view.height, *most)
+        answer["width"], answer["height"], answer["aspect"] = width, height, 1.0 if asked.fill else view.aspect
+        answer["ownWidth"], answer["ownHeight"] = view.width, view.height
 
-        def hears(message: Tile | Progress) -> None:
-            if isinstance(message, Tile):
-                server.protocol.notify("m3d/preview/tile", _tile(name, snapshot.version, width, height, message))
+        def hears(message: Painted | Progress) -> None:
+            if isinstance(message, Painted):
+                server.protocol.notify(wire.TILE, message.tile)
 
-        threads = server.documents.settings.preview.threads
+        options = _options(server, asked)
         number = scene = 0
 
         def make(new_number: int, new_scene: int) -> Draw:
             nonlocal number, scene
             number, scene = new_number, new_scene
-            return Draw(number, scene, straight, width, height, samples, threads, square=fill)
+            its = asked.preview, asked.job, snapshot.version
+            return Draw(number, scene, width, height, options, asked.fill, *its)
 
         ended = await previews.work(snapshot.analysis, make, hears)
         if ended.status == "done":
             shown = Shown(number, scene, snapshot, width, height)
-        return answer | _outcome(ended)
+        answer["status"], answer["message"] = ended.status, ended.message or None
+        answer["seconds"], answer["bent"] = ended.seconds, ended.bent
+        return answer
     except asyncio.CancelledError:
         return answer
     finally:
-        previews.end(name, shown)
+        previews.end(asked.preview, shown)
 
 
 def fit(width: int, height: int, most_width: int, most_height: int) -> tuple[int, int]:
@@ -97,34 +105,16 @@ def filling(view: View, most_width: int, most_height: int) -> tuple[int, int]:
     return max(1, round(width)), max(1, round(width * shape))
 
 
-def _tile(name: str, version: int, width: int, height: int, tile: Tile) -> dict[str, Any]:
-    return {
-        "preview": name,
-        "version": version,
-        "width": width,
-        "height": height,
-        "top": tile.top,
-        "step": tile.step,
-        "columns": tile.columns,
-        "rows": tile.rows,
-        "pixels": base64.b64encode(tile.pixels).decode("ascii"),
-    }
+def _options(server: Server, asked: wire.RenderParams | wire.SaveParams) -> RenderOptions:
+    """What is asked of the renderer. Of the settings the number of threads counts, 0 being all."""
+    threads = server.documents.settings.preview.threads or None
+    return asked.options | {"straight": asked.optics == "straight", "threads": threads}
 
 
-def _outcome(ended: Ended) -> dict[str, Any]:
-    return {
-        "status": ended.status,
-        "seconds": ended.seconds,
-        "bent": ended.bent,
-        "message": ended.message or None,
-    }
-
-
-@server_request("m3d/preview/pick")
-async def pick(server: Server, params: Any) -> dict[str, Any] | None:
+@server_request(wire.PICK)
+async def pick(server: Server, params: Any) -> wire.Picked | None:
     """What a pixel shows, and which text made it."""
-    given = Given(params)
-    shown, x, y = _pixel(server, given)
+    shown, x, y = _pixel(server, wire.PickParams.read(params))
     found = None if shown is None else await server.previews.ask(shown, Pick(x, y))
     if shown is None or found is None:
         return None
@@ -135,75 +125,78 @@ async def pick(server: Server, params: Any) -> dict[str, Any] | None:
     owner = found["solid"]
     if owner < 0:
         owner, owners = light, "lights"
-    return {
+    return found | {
         "version": shown.snapshot.version,
         "range": good.range(_span(ir, "primitives", primitive)),
         "solidRange": good.range(_span(ir, owners, owner)),
-        **found,
     }
 
 
-@server_request("m3d/preview/mask")
-async def mask(server: Server, params: Any) -> SimpleNamespace | None:
+@server_request(wire.MASK)
+async def mask(server: Server, params: Any) -> wire.Mask | None:
     """Where the picture shows what stands at a place of the text."""
-    given = Given(params)
-    shown, position = server.previews.shown(given.text("preview")), given.position()
-    if shown is None or position is None:
+    asked = wire.MaskParams.read(params)
+    shown = server.previews.shown(asked.preview)
+    if shown is None or asked.position is None:
         return None
     good = await _now(server, shown)
-    found = primitives_at(shown.snapshot.analysis.ir, good.place(position))
+    found = primitives_at(shown.snapshot.analysis.ir, good.place(asked.position))
     if found is None:
         return None
     span, primitives = found
     runs = await server.previews.ask(shown, Mask(primitives))
     if runs is None:
         return None
-    size = {"width": shown.width, "height": shown.height}
-    return SimpleNamespace(version=shown.snapshot.version, **size, runs=runs, range=good.range(span))
+    return {
+        "version": shown.snapshot.version,
+        "width": shown.width,
+        "height": shown.height,
+        "runs": runs,
+        "range": good.range(span),
+    }
 
 
-@server_request("m3d/preview/ray")
-async def ray(server: Server, params: Any) -> SimpleNamespace | None:
+@server_request(wire.RAY)
+async def ray(server: Server, params: Any) -> wire.Ray | None:
     """The path of the light that a pixel shows, in the vertical plane through it and the eye."""
-    shown, x, y = _pixel(server, Given(params))
-    found = None if shown is None else await server.previews.ask(shown, Ray(x, y))
-    return None if found is None else SimpleNamespace(**found)
+    shown, x, y = _pixel(server, wire.RayParams.read(params))
+    return None if shown is None else await server.previews.ask(shown, Ray(x, y))
 
 
-@server_request("m3d/preview/save")
-async def save(server: Server, params: Any) -> dict[str, Any]:
+@server_request(wire.SAVE)
+async def save(server: Server, params: Any) -> wire.Saved:
     """A picture at the scene's own size, in a file."""
-    given = Given(params)
-    uri, straight = given.uri(), given.one_of("optics", OPTICS) == "straight"
-    path, samples = given.text("path"), given.whole("samples", 1, 1)
-    answer = {"status": "cancelled", "path": path, "message": None}
-    threads = server.documents.settings.preview.threads
-    work_done = WorkDone(server, given.token())
+    asked = wire.SaveParams.read(params)
+    answer: wire.Saved = {"status": "cancelled", "path": asked.path, "message": None}
+    options = _options(server, asked)
+    work_done = WorkDone(server, asked.work_done_token)
     try:
-        good = await last_good(server, uri)
+        good = await last_good(server, asked.uri)
         if good.stale:
-            return answer | {"status": "error", "message": NOT_SAVED}
-        await work_done.begin(f"Rendering {file_name(uri)}")
+            answer["status"], answer["message"] = "error", NOT_SAVED
+            return answer
+        await work_done.begin(f"Rendering {file_name(asked.uri)}")
 
         def make(number: int, scene: int) -> Save:
-            return Save(number, scene, straight, samples, threads, path)
+            return Save(number, scene, options, asked.path)
 
-        def hears(message: Tile | Progress) -> None:
+        def hears(message: Painted | Progress) -> None:
             if isinstance(message, Progress):
                 work_done.report(message.rows, message.of)
 
         ended = await server.previews.work(good.snapshot.analysis, make, hears)
-        return answer | {"status": ended.status, "message": ended.message or None}
+        answer["status"], answer["message"] = ended.status, ended.message or None
+        return answer
     except asyncio.CancelledError:
         return answer
     finally:
         work_done.end()
 
 
-@server_request("m3d/preview/close")
+@server_request(wire.CLOSE)
 def close(server: Server, params: Any) -> None:
     """The client shows a preview no longer."""
-    server.previews.close(Given(params).text("preview"))
+    server.previews.close(wire.CloseParams.read(params).preview)
 
 
 def primitives_at(ir: SceneIR, place: Span) -> tuple[Span, np.ndarray[tuple[int], np.dtype[np.int64]]] | None:
@@ -225,14 +218,14 @@ def primitives_at(ir: SceneIR, place: Span) -> tuple[Span, np.ndarray[tuple[int]
     return _span(ir, "primitives", row), rows.astype(np.int64)
 
 
-def _pixel(server: Server, given: Given) -> tuple[Shown | None, int, int]:
+def _pixel(server: Server, asked: wire.PickParams | wire.RayParams) -> tuple[Shown | None, int, int]:
     """The picture that a pixel is of, if it has it, and its column and row. What a client shows may be a picture of
     another size, such as the one before: it then says which, and meant is what is at the same place."""
-    shown = server.previews.shown(given.text("preview"))
-    x, y = given.whole("x", 0), given.whole("y", 0)
+    shown = server.previews.shown(asked.preview)
+    x, y = asked.x, asked.y
     if shown is None:
         return None, x, y
-    width, height = given.whole("width", 1, shown.width), given.whole("height", 1, shown.height)
+    width, height = asked.width or shown.width, asked.height or shown.height
     inside = x < width and y < height
     return (shown if inside else None), _middle(x, width, shown.width), _middle(y, height, shown.height)
 

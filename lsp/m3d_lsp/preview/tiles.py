@@ -6,12 +6,10 @@ from collections.abc import Callable
 from threading import Condition
 
 import numpy as np
+from numpy.typing import NDArray
 
-from m3d_render import Picture
-from m3d_render import Tile as KernelTile
+from m3d_render import Picture, Tile
 from m3d_render.picture import to_bytes
-
-from .messages import Tile
 
 # Bytes of the pixels of one message, about; and how many messages may be on their way.
 MOST_BYTES = 100_000
@@ -26,15 +24,15 @@ class Tiles:
     tiles, and always the finest of all.
     """
 
-    def __init__(self, number: int, send: Callable[[Tile], None]) -> None:
-        self._number = number
+    def __init__(self, send: Callable[[int, int, NDArray[np.uint8]], None]) -> None:
+        """`send` is called with the first row, the step and the pixels of what is to be sent."""
         self._send = send
-        self._waiting: dict[int, KernelTile] = {}  # the finest, by their first row
+        self._waiting: dict[int, Tile] = {}  # the finest, by their first row
         self._ahead = 0
         self._cancelled = False
         self._changed = Condition()
 
-    def add(self, tile: KernelTile) -> None:
+    def add(self, tile: Tile) -> None:
         """Take a tile from the kernel."""
         self._waiting[tile.top] = tile
 
@@ -76,8 +74,6 @@ class Tiles:
             run.append(pixels)
             row += step * len(pixels)
             size += pixels.size
-        pixels = to_bytes(np.concatenate(run))
-        rows, columns, _ = pixels.shape
         with self._changed:
             self._ahead += 1
-        self._send(Tile(self._number, top, step, columns, rows, pixels.tobytes()))
+        self._send(top, step, to_bytes(np.concatenate(run)))

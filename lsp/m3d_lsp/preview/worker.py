@@ -5,6 +5,7 @@ It ends when its input does, whatever the server died of.
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import logging
 import os
@@ -12,11 +13,14 @@ import signal
 import sys
 import time
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from io import BufferedIOBase
 from pathlib import Path
 from threading import Lock, Thread
 from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
 
 from m3d_render import Cancelled, PictureError, Prepared, SceneError, prepare, write_picture
 from m3d_render.command import CommandError, check_folder
@@ -35,6 +39,7 @@ from .messages import (
     Forget,
     FromWorker,
     Mask,
+    Painted,
     Pick,
     Progress,
     Ray,
@@ -43,6 +48,7 @@ from .messages import (
     Taken,
 )
 from .tiles import Tiles
+from .wire import Tile
 
 log = logging.getLogger(__name__)
 
@@ -120,13 +126,30 @@ class Worker:
                 log.error("unknown message %r", message)
 
     def _start(self, job: Draw | Save) -> None:
-        tiles = self._tiles[job.number] = Tiles(job.number, self._channel.send)
+        tiles = self._tiles[job.number] = Tiles(partial(self._send_tile, job))
         scene = self._scenes.get(job.scene)
         if scene is not None and isinstance(job, Draw) and job.square:
             scene = scene.square
         thread = Thread(target=self._work, args=(job, scene, tiles), daemon=True)
         self._threads = [other for other in self._threads if other.is_alive()] + [thread]
         thread.start()
+
+    def _send_tile(self, job: Draw | Save, top: int, step: int, pixels: NDArray[np.uint8]) -> None:
+        assert isinstance(job, Draw)
+        rows, columns, _ = pixels.shape
+        tile: Tile = {
+            "preview": job.preview,
+            "job": job.job,
+            "version": job.version,
+            "width": job.width,
+            "height": job.height,
+            "top": top,
+            "step": step,
+            "columns": columns,
+            "rows": rows,
+            "pixels": base64.b64encode(pixels.tobytes()).decode("ascii"),
+        }
+        self._channel.send(Painted(job.number, tile))
 
     def _work(self, job: Draw | Save, scene: Unprepared | None, tiles: Tiles) -> None:
         """Draw or save; say how it ended, whatever happens."""
@@ -153,14 +176,8 @@ class Worker:
 
     def _draw(self, job: Draw, prepared: Prepared, tiles: Tiles) -> Ended:
         rendering = prepared.render(
-            width=job.width,
-            height=job.height,
-            straight=job.straight,
-            samples=job.samples,
-            threads=job.threads or None,
             aov=LAYERS,
-            tiles=tiles.add,
-            cancel=tiles.cancelled,
+            **(job.options | {"width": job.width, "height": job.height, "tiles": tiles.add, "cancel": tiles.cancelled}),
         )
         if not tiles.finish():
             return Ended(job.number, "cancelled")
@@ -171,13 +188,11 @@ class Worker:
         path = Path(job.path)
         check_suffix(path)
         check_folder(path)
-        rendering = prepared.render(
-            straight=job.straight,
-            samples=job.samples,
-            threads=job.threads or None,
-            progress=lambda rows, of: self._tell(Progress(job.number, rows, of)),
-            cancel=tiles.cancelled,
-        )
+
+        def progress(rows: int, of: int) -> None:
+            self._tell(Progress(job.number, rows, of))
+
+        rendering = prepared.render(**(job.options | {"progress": progress, "cancel": tiles.cancelled}))
         part = rendering.region
         write_picture(
             path,

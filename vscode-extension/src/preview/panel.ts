@@ -26,8 +26,6 @@ export class PreviewPanel {
   private readonly pinnedChanged = new vscode.EventEmitter<void>();
   readonly onDidDispose = this.disposed.event;
   readonly onDidChangePinned = this.pinnedChanged.event;
-  /** The questions of each kind of light that are under way, the oldest first: tiles are that one's. */
-  private readonly renderings: Record<Optics, number[]> = { mirage: [], straight: [] };
   private isReady = false;
   private isPinned = false;
   private toldProblem: string | undefined;
@@ -160,12 +158,9 @@ export class PreviewPanel {
     this.say({ type: "blocked", obstacle: obstacle(this.server.state, vscode.workspace.isTrusted) });
   }
 
-  private passOn({ preview, ...tile }: protocol.Tile): void {
-    for (const optics of ["mirage", "straight"] as const) {
-      const id = this.renderings[optics][0];
-      if (preview === this.id(optics) && id !== undefined) {
-        this.say({ type: "tile", id, tile });
-      }
+  private passOn(tile: protocol.Tile): void {
+    if (tile.preview === this.id("mirage") || tile.preview === this.id("straight")) {
+      this.say({ type: "tile", tile });
     }
   }
 
@@ -189,7 +184,7 @@ export class PreviewPanel {
         await this.reveal(message.hit, message.whole);
         break;
       case "save":
-        await savePicture(this.server, this.document, message.optics, this.settings.options.samples);
+        await savePicture(this.server, this.document, message.optics, this.settings.options.render);
         break;
       case "pin":
         this.pin(message.pinned);
@@ -229,16 +224,9 @@ export class PreviewPanel {
     }
   }
 
-  private async render({ id, request }: Extract<FromPage, { type: "render" }>): Promise<Rendered> {
-    const { optics } = request;
-    const renderings = this.renderings[optics];
-    renderings.push(id);
-    try {
-      const textDocument = { uri: this.uri };
-      return await this.server.request(protocol.render, { textDocument, preview: this.id(optics), ...request });
-    } finally {
-      renderings.splice(renderings.indexOf(id), 1);
-    }
+  private render({ id, request }: Extract<FromPage, { type: "render" }>): Promise<Rendered> {
+    const which = { textDocument: { uri: this.uri }, preview: this.id(request.optics), job: id };
+    return this.server.request(protocol.render, { ...which, ...request });
   }
 
   private async pick({ optics, pixel }: Extract<FromPage, { type: "pick" }>): Promise<Hit | null> {
@@ -261,7 +249,7 @@ export class PreviewPanel {
   }
 
   private async reveal(hit: Hit, whole: boolean): Promise<void> {
-    const range = (whole ? hit.solidRange : hit.range) as protocol.Pick["range"];
+    const range = (whole ? hit.solidRange : hit.range) as protocol.Picked["range"];
     await reveal(this.document.uri, this.scenes.rangeNow(this.document.uri, hit.version, range));
   }
 

@@ -14,7 +14,7 @@ export async function savePicture(
   server: Server,
   document: vscode.TextDocument,
   optics: Optics,
-  samples: number,
+  options: protocol.RenderOptions,
 ): Promise<void> {
   if (!vscode.workspace.isTrusted) {
     await tellRestricted();
@@ -28,7 +28,7 @@ export async function savePicture(
   if (target === undefined) {
     return;
   }
-  const params = { textDocument: { uri: document.uri.toString() }, optics, path: target.fsPath, samples };
+  const params = { textDocument: { uri: document.uri.toString() }, optics, path: target.fsPath, ...options };
   const name = path.basename(target.fsPath);
   const saved = await vscode.window.withProgress(
     { location: vscode.ProgressLocation.Notification, title: `Rendering ${name}`, cancellable: true },

@@ -1,6 +1,6 @@
 /** A picture as it comes in: tiles of squares, coarse to fine, painted over one another. */
 
-import type { Tile } from "./host";
+import type { Bytes, Tile } from "./protocol";
 
 export class Bitmap {
   readonly width: number;
@@ -37,6 +37,7 @@ export class Bitmap {
   /** Paints a tile of this picture's size. What reaches beyond the picture is left out. */
   paint(tile: Tile): void {
     const { data, width, height } = this;
+    const pixels = bytes(tile.pixels);
     for (let row = 0; row < tile.rows; row++) {
       const top = tile.top + row * tile.step;
       const bottom = Math.min(top + tile.step, height);
@@ -47,9 +48,9 @@ export class Bitmap {
           const right = Math.min((column + 1) * tile.step, width);
           for (let x = column * tile.step; x < right; x++) {
             const to = (line + x) * 4;
-            data[to] = tile.pixels[from] ?? 0;
-            data[to + 1] = tile.pixels[from + 1] ?? 0;
-            data[to + 2] = tile.pixels[from + 2] ?? 0;
+            data[to] = pixels[from] ?? 0;
+            data[to + 1] = pixels[from + 1] ?? 0;
+            data[to + 2] = pixels[from + 2] ?? 0;
             data[to + 3] = 255;
           }
         }
@@ -72,4 +73,8 @@ export class Bitmap {
     const [red = 0, green = 0, blue = 0, alpha = 0] = this.data.subarray((y * this.width + x) * 4);
     return alpha === 0 ? null : [red / 255, green / 255, blue / 255];
   }
+}
+
+function bytes(given: Bytes): Uint8Array {
+  return typeof given === "string" ? Uint8Array.from(atob(given), (letter) => letter.charCodeAt(0)) : given;
 }

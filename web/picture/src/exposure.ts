@@ -15,13 +15,8 @@ export type Quality = "draft" | "full";
 /** A full picture made in fewer seconds than this is fast: it keeps up with the keys. */
 const FAST = 0.2;
 
-/** How large pictures may be; without numbers, as large as the scene says. */
-export interface Limits {
-  maxWidth?: number;
-  maxHeight?: number;
-  fill?: boolean;
-  samples: number;
-}
+/** How pictures are made, and how large they may be; without numbers, as large as the scene says. */
+export type Limits = Omit<RenderRequest, "optics">;
 
 export class Exposure {
   /** What is to be seen: what is being made over the last good picture, or that. */
@@ -65,12 +60,10 @@ export class Exposure {
     return this.took < FAST;
   }
 
-  /** Whether the full picture of this version, as large as this, is there. */
+  /** Whether the full picture of this version, made like this, is there. */
   isWhole(version: number, limits: Limits): boolean {
     const { made, answer } = this;
-    const same =
-      made?.maxWidth === limits.maxWidth && made?.maxHeight === limits.maxHeight && made?.samples === limits.samples;
-    return same && answer?.version === version && this.running === null;
+    return made !== null && isSame(made, limits) && answer?.version === version && this.running === null;
   }
 
   /** Asks for a picture of the scene as it is. */
@@ -151,6 +144,12 @@ export class Exposure {
       }
     }
   }
+}
+
+/** Whether two objects have the same members. */
+export function isSame<T extends object>(one: T, other: T): boolean {
+  const names = Object.keys({ ...one, ...other }) as (keyof T)[];
+  return names.every((name) => one[name] === other[name]);
 }
 
 function failed(fault: unknown): Rendered {

@@ -5,7 +5,9 @@
  * Rows, columns and versions are whole numbers; pixels count from the upper left of the picture last rendered.
  */
 
-export type Optics = "straight" | "mirage";
+import type { Mask as WholeMask, Optics, Picked, Rendered, RenderOptions, RenderParams, Tile } from "./protocol";
+
+export type { Optics, Rendered, RenderOptions, Tile };
 
 /** What a preview shows: one of the two, or both under a slider. */
 export type Show = Optics | "both";
@@ -21,71 +23,14 @@ export interface Pixel {
   height: number;
 }
 
-export interface RenderRequest {
-  optics: Optics;
-  /** The picture is made smaller, keeping its proportions, to fit; without, it has the scene's own size. */
-  maxWidth?: number;
-  maxHeight?: number;
-  /** It is as large as fits, be it larger than the scene's own size, with square pixels. */
-  fill?: boolean;
-  /** Rays a pixel; 1 without. */
-  samples?: number;
-}
+/** What is asked of a picture: `RenderParams`, but for what tells the server which. */
+export type RenderRequest = Omit<RenderParams, "textDocument" | "preview" | "job">;
 
-/** Full rows of a picture, `columns` x `rows` pixels, each for a square of `step` picture pixels. */
-export interface Tile {
-  width: number;
-  height: number;
-  top: number;
-  step: number;
-  columns: number;
-  rows: number;
-  /** Red, green, blue, 0 to 255. */
-  pixels: Uint8Array;
-}
+/** What a pixel shows, `version` being that of the text that the places are of, and on which line that is written. */
+export type Hit = Omit<Picked, "range" | "solidRange" | "uv"> & { range: Place; solidRange: Place; line: number };
 
-export interface Rendered {
-  status: "done" | "cancelled" | "error";
-  version: number;
-  /** The text has errors, and the picture is of its last version without. */
-  stale: boolean;
-  width: number;
-  height: number;
-  /** How many times as tall as wide a pixel is to be shown. */
-  aspect: number;
-  /** The scene's own size. */
-  ownWidth: number;
-  ownHeight: number;
-  seconds: number;
-  /** Whether the scene's air bends light at all. */
-  bent: boolean;
-  /** For people, when the status is "error". */
-  message?: string | null;
-}
-
-/** What a pixel shows. */
-export interface Hit {
-  /** The version of the text that the places are of. */
-  version: number;
-  range: Place;
-  solidRange: Place;
-  /** Where it is written, for people: a line number. */
-  line: number;
-  solid: number;
-  primitive: number;
-  color: [number, number, number];
-  position: [number, number, number];
-  normal: [number, number, number];
-  depth: number;
-  path: { length: number; arcs: number };
-}
-
-/** Where a thing is seen: `[row, first column, end column]` of a picture of this size. */
-export interface Mask {
-  width: number;
-  height: number;
-  runs: [number, number, number][];
-}
+/** Where a thing is seen. */
+export type Mask = Omit<WholeMask, "version" | "range">;
 
 /** The scene, as far as the picture part must know it. */
 export interface Scene {
@@ -115,7 +60,8 @@ export interface Options {
   typingResolution: number;
   /** As large as the pane, or the scene's own size. */
   resolution: "pane" | "scene";
-  samples: number;
+  /** Of full pictures. */
+  render: RenderOptions;
   pinned: boolean;
 }
 

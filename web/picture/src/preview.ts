@@ -4,10 +4,11 @@
  * `new Preview(element, host)` is all there is to do; style.css goes with it.
  */
 
-import { Exposure, type Limits, type Quality } from "./exposure";
+import { Exposure, isSame, type Limits, type Quality } from "./exposure";
 import type { Choice, Events, Hit, Host, Mask, Obstacle, Optics, Options, Scene, Show } from "./host";
 import { listenToKeys, listenToPointer } from "./input";
 import { Pause } from "./pause";
+import { RENDER_OPTIONS } from "./protocol";
 import { css, hitText, pictureText, pixelText, unknownText } from "./readout";
 import { Stage } from "./stage";
 import { badge } from "./state";
@@ -34,7 +35,7 @@ export class Preview implements Events {
     show: "mirage",
     typingResolution: 0.5,
     resolution: "pane",
-    samples: 1,
+    render: RENDER_OPTIONS,
     pinned: false,
   };
   private scene_: Scene | null = null;
@@ -138,11 +139,11 @@ export class Preview implements Events {
   options(options: Partial<Options>): void {
     const before = this.options_;
     this.options_ = { ...before, ...options };
-    const { show, resolution, pinned, samples } = this.options_;
+    const { show, resolution, pinned, render } = this.options_;
     this.view.setShow(show);
     this.view.setPinned(pinned);
     this.view.setWholeSize(resolution === "scene");
-    if (show !== before.show || resolution !== before.resolution || samples !== before.samples) {
+    if (show !== before.show || resolution !== before.resolution || !isSame(render, before.render)) {
       const version = this.scene_?.version ?? 0;
       this.render(
         "full",
@@ -312,7 +313,7 @@ export class Preview implements Events {
   }
 
   private limits(exposure: Exposure, quality: Quality): Limits {
-    const { resolution, typingResolution, samples } = this.options_;
+    const { resolution, typingResolution, render } = this.options_;
     const pane = {
       width: Math.max(Math.round(this.view.pane.clientWidth * devicePixelRatio), 16),
       height: Math.max(Math.round(this.view.pane.clientHeight * devicePixelRatio), 16),
@@ -323,10 +324,11 @@ export class Preview implements Events {
         maxWidth: Math.max(Math.round(width * typingResolution), 16),
         maxHeight: Math.max(Math.round(height * typingResolution), 16),
         ...(resolution === "pane" && { fill: true }),
-        samples: 1,
+        ...RENDER_OPTIONS,
       };
     }
-    return resolution === "scene" ? { samples } : { maxWidth: pane.width, maxHeight: pane.height, fill: true, samples };
+    const size = resolution === "scene" ? {} : { maxWidth: pane.width, maxHeight: pane.height, fill: true };
+    return { ...size, ...render };
   }
 
   /** The pane has another size. */

@@ -9,7 +9,7 @@ import type { Tile } from "../src/host";
 function tile(width: number, height: number, top: number, step: number, ...rows: string[]): Tile {
   const columns = rows[0]?.length ?? 0;
   const pixels = Uint8Array.from(rows.join("").split("").flatMap((letter) => [letter.charCodeAt(0), 0, 255]));
-  return { width, height, top, step, columns, rows: rows.length, pixels };
+  return { preview: "", version: 1, width, height, top, step, columns, rows: rows.length, pixels };
 }
 
 /** The picture as the letters of its red values; a dot where there is nothing. */
@@ -61,4 +61,11 @@ test("there is no colour outside", () => {
   for (const [x, y] of [[-1, 0], [1, 0], [0, 1]] as const) {
     expect(bitmap.color(x, y)).toBeNull();
   }
+});
+
+test("pixels may be base64, as they come in JSON", () => {
+  const bitmap = new Bitmap(2, 1);
+  bitmap.paint({ ...tile(2, 1, 0, 1, "ab"), pixels: btoa("a\x00\xffb\x00\xff") });
+  expect(shown(bitmap)).toEqual(["ab"]);
+  expect(bitmap.color(1, 0)).toEqual([98 / 255, 0, 1]);
 });

@@ -99,5 +99,5 @@ export async function settled(): Promise<void> {
 export function plain(red: number, step = 1): Tile {
   const count = step === 1 ? 2 : 1;
   const pixels = new Uint8Array(count * count * 3).fill(0).map((_, index) => (index % 3 === 0 ? red : 0));
-  return { width: 2, height: 2, top: 0, step, columns: count, rows: count, pixels };
+  return { preview: "", version: 1, width: 2, height: 2, top: 0, step, columns: count, rows: count, pixels };
 }

@@ -334,7 +334,7 @@ test("the pointer stays where it is as pictures of other sizes come, and what is
   scene({ version: 2 });
   calm();
   const fine = host.asked[host.asked.length - 1];
-  fine?.tile({ width: 20, height: 20, top: 0, step: 20, columns: 1, rows: 1, pixels: new Uint8Array(3) });
+  fine?.tile({ ...plain(0, 20), width: 20, height: 20 });
   await drawn();
   expect(text(".m3d-pixel")).toContain("x 14  y 4 ");
   await fine?.answer({ version: 2, width: 20, height: 20 });

@@ -13,7 +13,7 @@ export class Disc {
     for (let place = 0; place < width * height; place++) {
       pixels.set(this.isInside(place % width, Math.floor(place / width), width, height) ? INSIDE : OUTSIDE, 3 * place);
     }
-    tile({ width, height, top: 0, step: 1, columns: width, rows: height, pixels });
+    tile({ preview: "disc", version: 1, width, height, top: 0, step: 1, columns: width, rows: height, pixels });
     const own = { ownWidth: width, ownHeight: height, aspect: 1 };
     return { status: "done", version: 1, stale: false, width, height, ...own, seconds: 0, bent: true };
   }

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
+from m3d_render.formats import FORMATS
 from m3d_render.options import PREVIEW, Option, Switch, Whole
 
 ROOT = Path(__file__).parent.parent
@@ -241,6 +242,12 @@ def _typescript(described: Protocol) -> Iterator[str]:
     yield "export const RENDER_OPTIONS: RenderOptions = {"
     defaults = {name: field.default for name, field in options.items() if field.default is not None}
     yield from (f"  {name}: {str(default).lower()}," for name, default in defaults.items())
+    yield "};\n"
+    yield "/** Suffixes of the picture files that can be saved, by what a file dialog calls them. */"
+    yield "export const PICTURE_FORMATS: Record<string, string[]> = {"
+    for format_ in FORMATS:
+        if format_.writer is not None:
+            yield f'  "{format_.name}": [{", ".join(_quoted(suffix[1:]) for suffix in format_.suffixes)}],'
     yield "};\n"
     for method, request in described.requests.items():
         own = {key: field for key, field in request.params.items() if key not in options}

@@ -1,6 +1,7 @@
-"""Writes what follows from the list of render options, m3d_render/options.py: part of `make generate`.
+"""Writes what follows from the lists of render options and of picture formats: part of `make generate`.
 
-That is what the kernel's crates know of them, and the table in docs/rendering.md.
+From m3d_render/options.py and formats.py that is what the kernel's crates know of options, and the tables in
+docs/rendering.md.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from m3d_render.formats import FORMATS
 from m3d_render.options import KERNEL, OPTIONS, Kind, Option, Real, Switch, Whole
 
 ROOT = Path(__file__).parent.parent
@@ -15,7 +17,8 @@ CRATES = ROOT / "renderer/crates"
 DOCS = ROOT / "docs/rendering.md"
 
 _MADE = "Made by `make generate` from renderer/m3d_render/options.py"
-_TABLE = re.compile(r"(?<=<!-- options -->\n).*?(?=<!-- /options -->)", re.DOTALL)
+_OPTIONS = re.compile(r"(?<=<!-- options -->\n).*?(?=<!-- /options -->)", re.DOTALL)
+_FORMATS = re.compile(r"(?<=<!-- formats -->\n).*?(?=<!-- /formats -->)", re.DOTALL)
 
 
 def texts() -> dict[Path, str]:
@@ -24,7 +27,7 @@ def texts() -> dict[Path, str]:
         CRATES / "kernel/src/options.rs": _kernel(),
         CRATES / "ir/src/options.rs": _ir(),
         CRATES / "python/src/options.rs": _python(),
-        DOCS: _TABLE.sub(lambda _: _table(), DOCS.read_text(encoding="utf-8")),
+        DOCS: _FORMATS.sub(lambda _: _formats(), _OPTIONS.sub(lambda _: _options(), DOCS.read_text(encoding="utf-8"))),
     }
 
 
@@ -98,9 +101,16 @@ def _rust(kind: Kind) -> str:
             raise TypeError(f"the kernel knows no option of the kind {kind}")
 
 
-def _table() -> str:
+def _options() -> str:
     rows = "".join(f"| {_flag(name, option)} | `{name}` | {option.help} |\n" for name, option in OPTIONS.items())
     return f"\n| `m3d-render` | Python | what |\n|---|---|---|\n{rows}\n"
+
+
+def _formats() -> str:
+    rows = "".join(
+        f"| {', '.join(f'`{suffix}`' for suffix in format_.suffixes)} | {format_.holds} |\n" for format_ in FORMATS
+    )
+    return f"\n| suffix | what the file holds |\n|---|---|\n{rows}\n"
 
 
 def _flag(name: str, option: Option) -> str:

@@ -14,9 +14,10 @@ from collections.abc import Sequence
 from m3d_render import command, destination, wireframe_cli
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
 from m3d_render.destination import Destination
+from m3d_render.formats import BY_SUFFIX, SUFFIXES, with_layers
 from m3d_render.metadata import metadata
 from m3d_render.options import BEYOND, WORK
-from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
+from m3d_render.picture import PictureError, encoded, write_picture
 from m3d_render.progress import ProgressLine
 from m3d_render.rendering import LAYERS, Cancelled, Rendering, SceneError, prepare
 from m3dc import compile as compile_scene
@@ -64,7 +65,7 @@ def _parser() -> argparse.ArgumentParser:
         type=_layers,
         default=(),
         metavar="NAME,...",
-        help=f"extra channels in an .exr: {', '.join(LAYERS)}; or all",
+        help=f"extra channels in an {with_layers()}: {', '.join(LAYERS)}; or all",
     )
     groups[WORK].add_argument(
         "--stats", action="store_true", help="print a JSON object: seconds, rays of each kind, arcs, peak memory"
@@ -95,8 +96,8 @@ def _check_normals(scene: str) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     to = destination.destination(options, SUFFIXES)
-    if options.aov and to.suffix != ".exr":
-        raise CommandError(USAGE_ERROR, f"{to.name}: only an .exr can hold what --aov asks for")
+    if options.aov and not BY_SUFFIX[to.suffix].layers:
+        raise CommandError(USAGE_ERROR, f"{to.name}: only an {with_layers()} can hold what --aov asks for")
     if options.stats and to.path is None:
         raise CommandError(USAGE_ERROR, "--stats and the picture can not both go to standard output; give -o PICTURE")
     started = time.perf_counter()

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from m3d_render import command
 from m3d_render.command import USAGE_ERROR, CommandError
-from m3d_render.picture import FORMATS, plane_paths
+from m3d_render.formats import BY_SUFFIX, USUAL
+from m3d_render.picture import paths
 from m3dc.files.artefact import names_stream
 
 STANDARD_OUTPUT = "-"
@@ -52,14 +53,16 @@ def destination(options: argparse.Namespace, suffixes: Sequence[str], what: str 
             raise CommandError(USAGE_ERROR, f"--format {options.format}: one of {known.replace('.', '')} is expected")
         found = f"'{suffix}'" if suffix else "no suffix"
         raise CommandError(USAGE_ERROR, f"{output}: {found}, where one of {known} must name the {what}'s format")
-    if path is None and suffix == ".raw":
-        raise CommandError(USAGE_ERROR, "a raw picture is three files, and standard output is one")
+    format_ = BY_SUFFIX.get(suffix)  # none of an .svg
+    planes = format_ is not None and format_.writer is None
+    if path is None and planes:
+        raise CommandError(USAGE_ERROR, f"a {suffix[1:]} picture is three files, and standard output is one")
     if path is not None:
-        paths = plane_paths(path) if suffix == ".raw" else [path]
-        command.check_outputs(options.scene, paths)
-        for each in paths:
+        files = [path] if format_ is None else paths(path, suffix)
+        command.check_outputs(options.scene, files)
+        for each in files:
             command.check_folder(each)
-    if suffix in FORMATS:
+    if format_ is not None and not planes:
         # Now, because an interrupt while it is being loaded would cost the whole rendering later.
         import OpenImageIO  # noqa: F401  # pyright: ignore[reportUnusedImport]
     return Destination("standard output" if path is None else output, path, suffix)
@@ -69,5 +72,5 @@ def _suffix(given: str | None, path: Path | None) -> str:
     if given:
         return f".{given.removeprefix('.')}"
     if path is None or names_stream(path):
-        return ".png"
+        return USUAL
     return path.suffix.lower()

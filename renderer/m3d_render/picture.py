@@ -1,9 +1,7 @@
-"""Pictures in files: PNG (8 bits), TIFF (16 bits), EXR (32-bit floating point), and the three planar files of the
-1993 program, NAME.red.raw, NAME.green.raw and NAME.blue.raw (8 bits).
+"""Pictures in files, in the formats of `formats`.
 
-Values from 0 to 1 are what a screen is to show: brightness as sRGB encodes it. PNG, TIFF and raw files hold them as
-they are. An EXR holds linear light, because that is what its readers expect: the same brightness. All but raw files
-say which of the two they hold.
+Values from 0 to 1 are what a screen is to show: brightness as sRGB encodes it. A format holds them as they are, or as
+linear light, where that is what its readers expect: the same brightness. All but planes say which of the two they hold.
 
 A picture is encoded and read back before anything is written, and its file takes its place only once it is whole, so
 that a failed or interrupted write leaves what was there before.
@@ -15,7 +13,6 @@ import contextlib
 import os
 import tempfile
 import time
-import zlib
 from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -23,18 +20,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from m3d_render.formats import BY_SUFFIX, LINEAR, SUFFIXES, Format, with_layers
 from m3dc.files.artefact import replacing
 
 if TYPE_CHECKING:
     import OpenImageIO
 
 Layers = Mapping[str, NDArray[np.floating]]
-
-FORMATS = {".png": "png", ".tif": "tiff", ".tiff": "tiff", ".exr": "openexr"}
-"""What OpenImageIO calls the formats that it writes, by suffix."""
-
-SUFFIXES = (*FORMATS, ".raw")
-"""The suffixes that name a format."""
 
 CHANNELS: dict[str, list[str]] = {
     "depth": ["Z"],
@@ -67,17 +59,17 @@ def write_picture(
     """Writes a picture (rows x columns x 3, 0..1); returns the files written. `suffix` names the format; it is the
     path's if not given.
 
-    An EXR holds more: extra outputs, `layers`, as channels (see `CHANNELS`), and where in a `whole` picture of so
+    Some formats hold more: extra outputs, `layers`, as channels (see `CHANNELS`), and where in a `whole` picture of so
     many columns and rows this one has its upper left pixel, `origin`, as (column, row).
     """
     target = Path(path)
     if suffix is None:
         check_suffix(target)
         suffix = target.suffix.lower()
-    if suffix == ".raw":
-        targets, contents = plane_paths(target), _planes(picture)
+    targets = paths(target, suffix)
+    if BY_SUFFIX[suffix].writer is None:
+        contents = _planes(picture)
     else:
-        targets = [target]
         try:
             contents = [encoded(suffix, picture, metadata, layers=layers, origin=origin, whole=whole)]
         except PictureError as error:
@@ -102,24 +94,23 @@ def encoded(
     origin: tuple[int, int] = (0, 0),
     whole: tuple[int, int] | None = None,
 ) -> bytes:
-    """The bytes of a picture's file in the format that a suffix of `FORMATS` names. Raises PictureError."""
-    if suffix == ".exr":
-        pixels, spec = _exr(picture, metadata or {}, layers or {}, origin, whole)
+    """The bytes of a picture's file in the format of a suffix, one with a writer. Raises PictureError."""
+    format_ = BY_SUFFIX[suffix]
+    pixels = stored(format_, picture)
+    if format_.layers:
+        pixels, spec = _with_layers(format_, pixels, metadata or {}, layers or {}, origin, whole)
     elif layers:
-        raise PictureError("only an .exr can hold extra outputs")
+        raise PictureError(f"only an {with_layers()} can hold extra outputs")
     else:
-        levels, kind = (255.0, np.uint8) if suffix == ".png" else (65535.0, np.uint16)
-        pixels = np.rint(np.clip(picture, 0.0, 1.0) * levels).astype(kind)
-        spec = _spec(pixels, metadata or {}, "srgb_rec709_scene")
+        spec = _spec(pixels, metadata or {}, format_.color)
     try:
         with _scratch() as file:
             name = f"/dev/fd/{file.fileno()}"
-            _write_image(name, FORMATS[suffix], np.ascontiguousarray(pixels), spec)
+            _write_image(name, format_.writer or "", np.ascontiguousarray(pixels), spec)
             file.seek(0)
             content = file.read()
             # Not every writer of OpenImageIO says that there was no room; and the reader of PNG shouts.
-            whole_file = _is_whole_png(content) if suffix == ".png" else True
-            if not (whole_file and _can_be_read(name, pixels, spec)):
+            if not (format_.is_whole(content) and _can_be_read(name, pixels, spec)):
                 raise PictureError("the picture could not be encoded: there is no room for it")
             return content
     except PictureError:
@@ -133,6 +124,15 @@ def _scratch() -> BinaryIO:
     if hasattr(os, "memfd_create"):
         return os.fdopen(os.memfd_create("picture"), "w+b")
     return tempfile.TemporaryFile()
+
+
+def stored(format_: Format, values: NDArray[np.floating]) -> NDArray[np.uint8 | np.uint16 | np.float32]:
+    """Values from 0 to 1 as the format holds them: a level is the value times the number of levels, rounded."""
+    if format_.color == LINEAR:
+        values = linear(values)
+    if format_.levels is None:
+        return values.astype(np.float32)
+    return np.rint(np.clip(values, 0.0, 1.0) * format_.levels).astype(format_.kind)
 
 
 def linear(values: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -149,8 +149,10 @@ def check_suffix(target: Path) -> None:
         raise PictureError(f"{target}: {found}, where one of {known} must name the picture's format")
 
 
-def plane_paths(target: Path) -> list[Path]:
-    """The three files of a .raw picture."""
+def paths(target: Path, suffix: str) -> list[Path]:
+    """The files of a picture in the format of a suffix: one, or three planes."""
+    if BY_SUFFIX[suffix].writer is not None:
+        return [target]
     return [target.with_name(f"{target.stem}.{channel}{target.suffix}") for channel in _PLANES]
 
 
@@ -164,25 +166,26 @@ def _planes(picture: NDArray[np.floating]) -> list[bytes]:
     return [np.ascontiguousarray(values[..., channel]).tobytes() for channel in range(3)]
 
 
-def _exr(
-    picture: NDArray[np.floating],
+def _with_layers(
+    format_: Format,
+    pixels: NDArray[Any],
     metadata: Mapping[str, str],
     layers: Layers,
     origin: tuple[int, int],
     whole: tuple[int, int] | None,
 ) -> tuple[NDArray[np.float32], OpenImageIO.ImageSpec]:
     names = ["R", "G", "B"]
-    parts: list[NDArray[np.floating]] = [linear(picture)]
+    parts: list[NDArray[np.floating]] = [pixels]
     for name, values in layers.items():
         names += CHANNELS[name]
-        parts.append(values.reshape(*picture.shape[:2], len(CHANNELS[name])))
-    pixels = np.concatenate(parts, axis=2, dtype=np.float32, casting="same_kind")
-    spec = _spec(pixels, metadata, "lin_rec709_scene")
+        parts.append(values.reshape(*pixels.shape[:2], len(CHANNELS[name])))
+    joined = np.concatenate(parts, axis=2, dtype=np.float32, casting="same_kind")
+    spec = _spec(joined, metadata, format_.color)
     spec.channelnames = tuple(names)
     spec.x, spec.y = origin
     if whole is not None:
         spec.full_width, spec.full_height = whole
-    return pixels, spec
+    return joined, spec
 
 
 def _spec(pixels: NDArray[Any], metadata: Mapping[str, str], color_space: str) -> OpenImageIO.ImageSpec:
@@ -219,19 +222,6 @@ def _write_image(name: str, kind: str, pixels: NDArray[Any], spec: OpenImageIO.I
         closed = output.close()
     if not (written and closed):
         raise PictureError(f"the picture could not be written: {reason or output.geterror()}")
-
-
-def _is_whole_png(content: bytes) -> bool:
-    """Whether all chunks are there, each with its checksum, up to the last."""
-    place, kind = 8, b""
-    while kind != b"IEND":
-        length = int.from_bytes(content[place : place + 4], "big")
-        body = content[place + 4 : place + 8 + length]
-        kind = body[:4]
-        place += length + 12
-        if len(body) != length + 4 or zlib.crc32(body) != int.from_bytes(content[place - 4 : place], "big"):
-            return False
-    return place == len(content)
 
 
 def _can_be_read(name: str, pixels: NDArray[Any], spec: OpenImageIO.ImageSpec) -> bool:

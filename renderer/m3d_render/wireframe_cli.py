@@ -6,8 +6,9 @@ import argparse
 
 from m3d_render import _kernel, command, destination
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
+from m3d_render.formats import SUFFIXES
 from m3d_render.options import OPTIONS
-from m3d_render.picture import SUFFIXES, PictureError, encoded, write_picture
+from m3d_render.picture import PictureError, encoded, write_picture
 from m3d_render.rendering import SceneError
 from m3d_render.wireframe.drawing import HIDDEN, project
 from m3d_render.wireframe.marks import MARKS

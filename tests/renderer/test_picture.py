@@ -17,7 +17,8 @@ from pictures import channel_names, read_pixels, stored
 import m3d_render
 import m3dc
 from m3d_render import Picture
-from m3d_render.picture import SUFFIXES, linear, plane_paths, to_bytes
+from m3d_render.formats import SUFFIXES
+from m3d_render.picture import linear, paths, to_bytes
 
 
 @pytest.fixture
@@ -103,7 +104,7 @@ except PictureError as error:
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_a_full_disk_leaves_the_old_file(tmp_path: Path, suffix: str, room: int):
     path = tmp_path / f"a{suffix}"
-    olds = plane_paths(path) if suffix == ".raw" else [path]
+    olds = paths(path, suffix)
     if room < 0:  # the last byte is missing
         words = [sys.executable, "-c", FULL, str(path), str(2**40)]
         assert subprocess.run(words, check=False).returncode == 0

@@ -4,11 +4,10 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 
 import type { Optics } from "mirage3d-picture/host";
+import { PICTURE_FORMATS } from "mirage3d-picture/protocol";
 import { pictureOf } from "../arguments";
 import * as protocol from "../protocol";
 import type { Server } from "../server";
-
-const KINDS = { "PNG, 8 bits": ["png"], "OpenEXR, floating point": ["exr"], "TIFF, 16 bits": ["tif", "tiff"] };
 
 export async function savePicture(
   server: Server,
@@ -23,7 +22,7 @@ export async function savePicture(
   const target = await vscode.window.showSaveDialog({
     title: `Save the picture of ${path.basename(document.uri.path)} (${optics})`,
     defaultUri: beside(document.uri, optics),
-    filters: KINDS,
+    filters: PICTURE_FORMATS,
   });
   if (target === undefined) {
     return;

@@ -151,6 +151,13 @@ export const RENDER_OPTIONS: RenderOptions = {
   samples: 1,
 };
 
+/** Suffixes of the picture files that can be saved, by what a file dialog calls them. */
+export const PICTURE_FORMATS: Record<string, string[]> = {
+  "PNG, 8 bits": ["png"],
+  "TIFF, 16 bits": ["tif", "tiff"],
+  "OpenEXR, floating point": ["exr"],
+};
+
 /** Makes a picture. */
 export interface RenderParams extends RenderOptions {
   /** The scene. */

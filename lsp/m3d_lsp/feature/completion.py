@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import islice
 
 from lsprotocol import types
 
@@ -112,7 +111,7 @@ def _is_followed(snapshot: Snapshot, place: Cursor, what: frozenset[str] = FILLI
     """Whether what a keyword or a target would be filled in with stands behind the cursor's word already: a brace, an
     argument, the name that a block copies, an equals sign. `what` are the kinds of tokens that count. A word that is
     assigned to is none of them: it begins an item."""
-    ahead = list(islice(lexer.tokens(snapshot.text.data, _word_end(snapshot, place)), 2))
+    ahead = lexer.next_tokens(snapshot.text.data, _word_end(snapshot, place), 2)
     if not ahead:
         return False
     is_target = ahead[0].kind == "word" and len(ahead) > 1 and ahead[1].kind == "="

@@ -162,12 +162,12 @@ def comment_end(data: bytes, start: int) -> int | None:
     return None
 
 
-def tokens(data: bytes, start: int) -> Iterator[Token]:
-    """The tokens of a text from a byte on."""
-    lexer = Lexer(data, len(data), lambda _kind, _span, _text: None)
+def next_tokens(data: bytes, start: int, count: int) -> list[Token]:
+    """The first few tokens of a text from a byte on, fewer where it ends before."""
+    lexer = Lexer(data, len(data), lambda _kind, _span, _text: None, Budget(len(data)))
     lexer.at = start
-    while (token := lexer.next()).kind != "end":
-        yield token
+    found = (lexer.next() for _ in range(count))
+    return [token for token in found if token.kind != "end"]
 
 
 class Word(NamedTuple):

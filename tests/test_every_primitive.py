@@ -16,7 +16,6 @@ import m3dc
 from bench import povray
 from m3d_language.table import LANGUAGE
 from m3d_lsp.resolved import facts
-from m3d_lsp.standing import standing
 from m3d_render import wireframe
 from m3d_render.geometry import ViewPlane
 from m3d_render.plot.section import section
@@ -26,6 +25,7 @@ from m3dc.analysis import Analyser
 from m3dc.diagnostics import catalogue
 from m3dc.ir import PRIMITIVE_TABLE, PrimitiveKind, SceneIR, m3ir
 from m3dc.ir.dump import dump
+from m3dc.syntax import ast
 from m3dc.text.source import Source
 
 COMPILER = "compiler/m3dc/meaning/primitive"
@@ -101,9 +101,12 @@ def test_it_is_dumped(ir: SceneIR, kind: PrimitiveKind) -> None:
 def test_an_editor_tells_of_it(kind: PrimitiveKind) -> None:
     with told_by(COMPILER):
         text = scene(kind)
-        here = standing(Analyser().analyse(Source(text.encode())), text.index("{", text.index(kind.name)) + 1)
+        analysis = Analyser().analyse(Source(text.encode()))
+        start = text.index(kind.name)
+        at = ast.locate(analysis.items, (start, start + len(kind.name)))
+        here = None if at is None else analysis.enclosing(at)
         assert here is not None
-        lines = facts(here, kind.name).split("\n")
+        lines = facts(analysis, here, kind.name).split("\n")
         assert "In the scene:" in lines
         assert any(line.startswith("- extents x") for line in lines) == (kind not in ENDLESS)
         assert any(line.startswith("- ") and "extents" not in line for line in lines)

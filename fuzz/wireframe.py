@@ -44,13 +44,13 @@ def check(data: bytes) -> str | None:
                 text = svg(drawing)
                 if "nan" in text or "inf" in text:
                     return f"a coordinate of the SVG is not finite (hidden={hidden}, from_above={from_above})"
-                for layer in drawing.layers:
-                    for points in (layer.starts, layer.ends):
+                for thing in drawing.things:
+                    for points in (thing.starts, thing.ends):
                         inside = (points[:, :2] >= -0.5 - SLACK) & (
                             points[:, :2] <= np.array([COLUMNS, ROWS]) - 0.5 + SLACK
                         )
                         if not inside.all():
-                            return f"{layer.name} is drawn outside of the picture"
+                            return f"{thing.name} is drawn outside of the picture"
     return None
 
 

@@ -17,8 +17,6 @@ from m3dc.ir.m3ir import VERSION
 PAGE = Path(__file__).parent.parent / "renderer/crates/ir/src/generated.rs"
 
 KINDS: tuple[type[IntEnum], ...] = (ir.PrimitiveKind, ir.TextureKind, ir.LightKind)
-_NAMES = {ir.Scene.__name__: "Globals"}
-"""What is called otherwise there, where a scene is the kernel's."""
 _TYPES = {float: "f64", int: "i64", bool: "bool", ir.Triple: "[f64; 3]"}
 
 _HEAD = f"""\
@@ -33,7 +31,7 @@ pub const VERSION: u64 = {VERSION};
 
 def page() -> str:
     """The whole file, as rustfmt lays it out."""
-    return "\n".join([_HEAD, *map(_kind, KINDS), *_structures(ir.Scene)])
+    return "\n".join([_HEAD, *map(_kind, KINDS), *_structures(ir.Globals)])
 
 
 def _kind(kind: type[IntEnum]) -> str:
@@ -85,7 +83,7 @@ def _structures(kind: type[NamedTuple]) -> list[str]:
 
 
 def _name(kind: type[Any]) -> str:
-    return _NAMES.get(kind.__name__, kind.__name__)
+    return kind.__name__
 
 
 def _says(kind: type[Any]) -> str:

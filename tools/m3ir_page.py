@@ -47,7 +47,7 @@ _ALIASES = {ir.Triple: "triple", Mapping[str, Span]: "by keyword, a pair of byte
 
 def page() -> str:
     """The whole page."""
-    parts = [INTRODUCTION, "## header: scene\n", *_members(ir.Scene, "scene")]
+    parts = [INTRODUCTION, "## header: scene\n", *_members(ir.Globals, "scene")]
     for name, columns in ir.TABLES.items():
         parts += [f"\n## {name}\n", "| column | type | |", "|---|---|---|"]
         for column, described in columns.items():

@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike
 from m3dc.ir import (
     TABLES,
     Ambient,
+    Globals,
     Haze,
     LightKind,
     Mirage,
     PrimitiveKind,
-    Scene,
     SceneIR,
     Sky,
     TextureKind,
@@ -100,7 +100,7 @@ class SceneBuilder:
         **options: float,
     ):
         self.rows: dict[str, list[dict[str, Any]]] = {name: [] for name in TABLES}
-        self.scene = Scene(
+        self.scene = Globals(
             shadows=False, log_scale=0.0, depth=2, background=BLACK,
             ambient=Ambient(0.2, (0.5, 0.5, 0.5), 0, 0), haze=Haze(False, 1.0, WHITE, 0.0),
             sky=None, mirage=None, view=view(eye, target, fov, width, height, **options), extent=None,

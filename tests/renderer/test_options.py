@@ -14,7 +14,7 @@ import m3d_render
 from m3d_render import RenderOptions, cli
 from m3d_render.options import OPTIONS, Real, Switch, Whole
 from m3d_render.picture import to_bytes
-from m3dc.ir import Scene, m3ir
+from m3dc.ir import Globals, m3ir
 from tools import render_options
 
 CALLBACKS = {"progress", "cancel", "tiles"}
@@ -73,7 +73,7 @@ def test_what_is_out_of_range_is_refused(name: str, scene: Path, capsys: pytest.
 
 def test_what_the_scene_decides_is_a_field_of_the_ir() -> None:
     said = {name for name, option in OPTIONS.items() if option.kernel and option.default is None}
-    assert said == {"shadows", "depth", "log_scale", "refract_reflections"} & Scene.__annotations__.keys()
+    assert said == {"shadows", "depth", "log_scale", "refract_reflections"} & Globals.__annotations__.keys()
     for name, option in OPTIONS.items():
         assert not option.kernel or isinstance(option.kind, (Whole, Real, Switch)), name
 

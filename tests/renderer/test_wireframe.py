@@ -114,13 +114,13 @@ def test_what_a_surface_covers_is_removed_or_dashed() -> None:
 
 def test_a_spheres_far_side_is_hidden_by_itself() -> None:
     ir = m3dc.compile(VIEW + "SOLID { SPHERE { CENTER <0,0,0> RADIUS 20 } }").ir
-    (layer,) = wireframe.project(ir, hidden="dim").layers
-    ahead = 1 / layer.starts[:, 2]
+    (thing,) = wireframe.project(ir, hidden="dim").things
+    ahead = 1 / thing.starts[:, 2]
     # What touches the sphere from the eye is 50 - 20^2/50 ahead.
     edge = 50 - 20**2 / 50
-    assert layer.hidden[ahead > edge + 0.1].all()
-    assert not layer.hidden[(ahead < edge - 0.1) & (1 / layer.ends[:, 2] < edge - 0.1)].any()
-    assert layer.hidden.any()
+    assert thing.hidden[ahead > edge + 0.1].all()
+    assert not thing.hidden[(ahead < edge - 0.1) & (1 / thing.ends[:, 2] < edge - 0.1)].any()
+    assert thing.hidden.any()
 
 
 def test_an_edge_is_not_hidden_by_the_facets_it_borders() -> None:
@@ -128,8 +128,8 @@ def test_an_edge_is_not_hidden_by_the_facets_it_borders() -> None:
         "VERTICES { 6 <5,-9,0> <5,9,0> <0,-9,0.8> <0,9,0.8> <-5,-9,0> <-5,9,0> } FACETS { 4 0 1 3 0 3 2 4 2 3 4 3 5 }"
     )
     ir = m3dc.compile(VIEW.replace("< 50, 0, 0 >", "< 50, 3, 20 >") + f"SOLID {{ POLYGONS {{ {roof} }} }}").ir
-    (layer,) = wireframe.project(ir, hidden="dim").layers
-    assert not layer.hidden.any(), "both sides of a flat roof are seen from above it"
+    (thing,) = wireframe.project(ir, hidden="dim").things
+    assert not thing.hidden.any(), "both sides of a flat roof are seen from above it"
 
 
 # --- from above, and marks ------------------------------------------------------------------------------------------
@@ -140,22 +140,22 @@ LONG = "SCENE { SKY { } VIEW { FROM < 100, 0, 2 > TO < 0, 0, 2 > WIDTH 200 HEIGH
 def test_from_above_the_longer_side_lies_across() -> None:
     runway = "RECTANGLE { VERTEX1 < -80, -5, 0 > VERTEX2 < 80, -5, 0 > VERTEX3 < 80, 5, 0 > }"
     drawing = wireframe.project(m3dc.compile(LONG % runway).ir, from_above=True)
-    (layer,) = drawing.layers
-    columns, rows = np.ptp(layer.starts[:, 0]), np.ptp(layer.starts[:, 1])
+    (thing,) = drawing.things
+    columns, rows = np.ptp(thing.starts[:, 0]), np.ptp(thing.starts[:, 1])
     assert columns / rows == pytest.approx(16, rel=0.01)
     assert 180 < columns < 199, "nearly all of the width"
     # The camera looks along -x, which is to the right here, and its left, -y, is up.
-    right_most = layer.starts[layer.starts[:, 0].argmax()]
+    right_most = thing.starts[thing.starts[:, 0].argmax()]
     assert right_most[0] > 100
     wide = "RECTANGLE { VERTEX1 < -5, -80, 0 > VERTEX2 < 5, -80, 0 > VERTEX3 < 5, 80, 0 > }"
-    (layer,) = wireframe.project(m3dc.compile(LONG % wide).ir, from_above=True).layers
-    assert np.ptp(layer.starts[:, 0]) > 180, "a broad scene has the direction of view upward"
+    (thing,) = wireframe.project(m3dc.compile(LONG % wide).ir, from_above=True).things
+    assert np.ptp(thing.starts[:, 0]) > 180, "a broad scene has the direction of view upward"
 
 
 def test_the_frustum_from_above_has_the_views_angle() -> None:
     ir = m3dc.compile(LONG.replace("TO", "FOV 30 TO") % "SPHERE { }").ir
-    layers = {layer.name: layer for layer in wireframe.project(ir, from_above=True, show=["frustum"]).layers}
-    starts, ends = layers["frustum"].starts[:4, :2], layers["frustum"].ends[:4, :2]
+    things = {thing.name: thing for thing in wireframe.project(ir, from_above=True, show=["frustum"]).things}
+    starts, ends = things["frustum"].starts[:4, :2], things["frustum"].ends[:4, :2]
     ways = (ends - starts) / np.linalg.norm(ends - starts, axis=1)[:, None]
     angles = np.degrees(np.arccos(np.clip(ways @ ways.T, -1, 1)))
     assert angles.max() == pytest.approx(30, abs=0.5)
@@ -164,9 +164,9 @@ def test_the_frustum_from_above_has_the_views_angle() -> None:
 def test_lights_and_axes() -> None:
     text = VIEW + "SOLID { SPHERE { RADIUS 9 } } LIGHT { SOURCE { POINT FROM < 0, 20, 20 > } }"
     ir = m3dc.compile(text).ir
-    layers = {layer.name: layer for layer in wireframe.project(ir, show=wireframe.MARKS).layers}
-    assert {"solid-0", "light-0", "light-1", "axes", "frustum"} >= set(layers) >= {"solid-0", "light-1", "axes"}
-    star = (layers["light-1"].starts + layers["light-1"].ends)[:, :2] / 2
+    things = {thing.name: thing for thing in wireframe.project(ir, show=wireframe.MARKS).things}
+    assert {"solid-0", "light-0", "light-1", "axes", "frustum"} >= set(things) >= {"solid-0", "light-1", "axes"}
+    star = (things["light-1"].starts + things["light-1"].ends)[:, :2] / 2
     np.testing.assert_allclose(star.mean(axis=0), [70, 30], atol=0.3)
     with pytest.raises(ValueError, match="no mark sun"):
         wireframe.project(ir, show=["sun"])
@@ -254,6 +254,6 @@ def test_what_is_far_away_is_drawn_within_the_picture(text: str, hidden: wirefra
     for from_above in (False, True):
         drawing = wireframe.project(ir, 40, 30, from_above=from_above, hidden=hidden, show=wireframe.MARKS)
         assert "nan" not in wireframe.svg(drawing)
-        for layer in drawing.layers:
-            for points in (layer.starts, layer.ends):
+        for thing in drawing.things:
+            for points in (thing.starts, thing.ends):
                 assert (np.abs(points[:, :2] - (19.5, 14.5)) <= (20 + 1e-9, 15 + 1e-9)).all()

@@ -9,9 +9,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .tables import PrimitiveKind, Scene, Table, TextureKind, Triple
+from .tables import Columns, Globals, PrimitiveKind, TextureKind, Triple
 
-Tables: TypeAlias = Mapping[str, Table]
+Tables: TypeAlias = Mapping[str, Columns]
 
 MOST_ROWS = 20
 """Solids that are shown one by one."""
@@ -19,7 +19,7 @@ MOST_ROWS = 20
 _CELL = "text-align: left; padding: 0.1em 0.8em 0.1em 0"
 
 
-def scene_html(scene: Scene, tables: Tables, source: str) -> str:
+def scene_html(scene: Globals, tables: Tables, source: str) -> str:
     """What a scene says once, how much of everything it has, and its solids."""
     facts = "\n".join(
         f'<tr><th style="{_CELL}">{name}</th><td style="{_CELL}">{says}</td></tr>'
@@ -28,7 +28,7 @@ def scene_html(scene: Scene, tables: Tables, source: str) -> str:
     return f"<table>\n{facts}\n</table>\n{_solids(tables)}"
 
 
-def _facts(scene: Scene, tables: Tables, source: str) -> list[tuple[str, str]]:
+def _facts(scene: Globals, tables: Tables, source: str) -> list[tuple[str, str]]:
     view, mirage, extent = scene.view, scene.mirage, scene.extent
     facts = [("scene", escape(source) or "without a name")]
     size = f"{view.width} x {view.height} pixels, {view.fov:g}° wide"

@@ -48,13 +48,13 @@ def lower(world: World, source: str, places: Places) -> ir.SceneIR:
         )
     tables = rows.tables()
     spans = {keyword: places.absolute(record.span).bytes for keyword, record in _once(world.scene)}
-    return ir.SceneIR(_scene(world.scene, sun, _extent(tables), tables["profile"], spans), tables, source)
+    return ir.SceneIR(_globals(world.scene, sun, _extent(tables), tables["profile"], spans), tables, source)
 
 
 class Shapes(NamedTuple):
     """Some primitives as rows of the IR's tables, and the box that holds those that end somewhere."""
 
-    tables: dict[str, ir.Table]
+    tables: dict[str, ir.Columns]
     extent: ir.Extent | None
 
 
@@ -224,7 +224,7 @@ def _primitive(rows: Rows, record: Record, parent: Transform, *, solid: int = -1
     )
 
 
-def _extent(tables: dict[str, ir.Table]) -> ir.Extent | None:
+def _extent(tables: dict[str, ir.Columns]) -> ir.Extent | None:
     points = [some for primitive in PRIMITIVES.values() for some in primitive.extent(tables) if len(some)]
     if not points:
         return None
@@ -236,11 +236,13 @@ def _extent(tables: dict[str, ir.Table]) -> ir.Extent | None:
 # --- scene --------------------------------------------------------------------------------------------------------
 
 
-def _scene(record: Record, sun: int, extent: ir.Extent | None, profile: ir.Table, spans: dict[str, Span]) -> ir.Scene:
+def _globals(
+    record: Record, sun: int, extent: ir.Extent | None, profile: ir.Columns, spans: dict[str, Span]
+) -> ir.Globals:
     nested = record.nested
     ambient, haze = record.member("AMBIENT"), record.member("HAZE")
     sky, mirage = nested.get("SKY"), nested.get("MIRAGE")
-    return ir.Scene(
+    return ir.Globals(
         shadows=record.flag("SHADOWS"),
         log_scale=record.number("LOGSCALE"),
         depth=record.integer("DEPTH"),
@@ -271,7 +273,7 @@ def _sky(record: Record, sun: int) -> ir.Sky:
     )
 
 
-def _mirage(record: Record, profile: ir.Table) -> ir.Mirage:
+def _mirage(record: Record, profile: ir.Columns) -> ir.Mirage:
     return ir.Mirage(
         segments=record.integer("SEGMENTS"),
         distance=record.number("DISTANCE"),

@@ -1,6 +1,6 @@
 """The `.m3ir` file: one NumPy archive that `numpy.load` opens without pickle. docs/m3ir.md describes it.
 
-`header` is a JSON text as bytes: the format's version and all of `ir.Scene`; every column of every table is an array
+`header` is a JSON text as bytes: the format's version and all of `ir.Globals`; every column of every table is an array
 named `table.column`. Nothing that a file says is trusted: it takes no more memory than the file is long, and what is
 read has passed `soundness.fault`.
 """
@@ -73,7 +73,7 @@ def read(path: Path) -> ir.SceneIR:
             for table, columns in ir.TABLES.items()
         }
     scene = ir.SceneIR(
-        _member(ir.Scene, said.get("scene"), "scene"), tables, _member(str, said.get("source"), "source")
+        _member(ir.Globals, said.get("scene"), "scene"), tables, _member(str, said.get("source"), "source")
     )
     wrong = fault(scene)
     if wrong:
@@ -175,8 +175,8 @@ def _header(archive: _Archive) -> dict[str, Any]:
     return said
 
 
-def _plain(scene: ir.Scene) -> dict[str, Any]:
-    """A Scene's JSON form."""
+def _plain(scene: ir.Globals) -> dict[str, Any]:
+    """Their JSON form."""
     return {
         name: member._asdict() if hasattr(member, "_asdict") else member for name, member in scene._asdict().items()
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .tables import Scene, Table
+from .tables import Columns, Globals
 
 
 class SceneIR:
@@ -12,12 +12,12 @@ class SceneIR:
 
     __slots__ = ("scene", "source", "tables")
 
-    def __init__(self, scene: Scene, tables: Mapping[str, Table], source: str = "") -> None:
+    def __init__(self, scene: Globals, tables: Mapping[str, Columns], source: str = "") -> None:
         self.scene = scene
         self.tables = tables
         self.source = source
 
-    def __getitem__(self, table: str) -> Table:
+    def __getitem__(self, table: str) -> Columns:
         return self.tables[table]
 
     def _repr_html_(self) -> str:

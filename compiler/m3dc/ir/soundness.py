@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from m3d_language.table import LANGUAGE
 
 from .scene import SceneIR
-from .tables import PRIMITIVE_TABLE, TABLES, Column, PrimitiveKind, Table, Within
+from .tables import PRIMITIVE_TABLE, TABLES, Column, Columns, PrimitiveKind, Within
 
 
 def fault(scene: SceneIR) -> str | None:
@@ -41,7 +41,7 @@ def _faults(scene: SceneIR) -> Iterator[str]:
 
 
 def _column_faults(
-    name: str, values: NDArray[np.generic], column: Column, tables: Mapping[str, Table]
+    name: str, values: NDArray[np.generic], column: Column, tables: Mapping[str, Columns]
 ) -> Iterator[str]:
     if not values.size or values.dtype.kind not in "fiu":
         return
@@ -67,7 +67,7 @@ def not_within(number: float, within: Within) -> str | None:
     return None
 
 
-def _length(tables: Mapping[str, Table], table: str) -> int:
+def _length(tables: Mapping[str, Columns], table: str) -> int:
     return len(next(iter(tables[table].values())))
 
 
@@ -77,7 +77,7 @@ def _beyond(name: str, rows: NDArray[np.generic], length: int, table: str) -> It
         yield f"{name} names rows of {table} that are not there"
 
 
-def _primitive_faults(tables: Mapping[str, Table]) -> Iterator[str]:
+def _primitive_faults(tables: Mapping[str, Columns]) -> Iterator[str]:
     primitives = tables["primitives"]
     for kind, table in PRIMITIVE_TABLE.items():
         rows = primitives["row"][primitives["kind"] == kind]

@@ -1,6 +1,6 @@
 """The scene IR: flat tables of plain numbers that a renderer can read without knowing the language.
 
-A scene is `Scene` (what is said once: view, sky, mirage, ...) and `TABLES` (what is said many times: solids,
+A scene is `Globals` (what is said once: view, sky, mirage, ...) and `TABLES` (what is said many times: solids,
 primitives, facets, ...). A table is a dictionary of columns, each a NumPy array with one entry a row. All geometry
 is in world space; the object and primitive matrices that made it stand beside it. Matrices are 4x4 and act on row
 vectors, P' = P M (thesis 3.6). Rows are in the order of the scene file, and their `span` is the half-open range
@@ -21,7 +21,7 @@ from ..meaning.primitive import PRIMITIVES, PrimitiveKind
 from ..text.span import Span
 
 Triple: TypeAlias = tuple[float, float, float]
-Table: TypeAlias = dict[str, NDArray[Any]]
+Columns: TypeAlias = dict[str, NDArray[Any]]
 
 
 class TextureKind(IntEnum):
@@ -144,7 +144,7 @@ TABLES: Mapping[str, Mapping[str, Column]] = {
 Amount: TypeAlias = Annotated[float, NOT_NEGATIVE]
 Share: TypeAlias = Annotated[float, SHARE]
 Color: TypeAlias = Annotated[Triple, SHARE]
-Place: TypeAlias = Annotated[Triple, POSITION]
+Position: TypeAlias = Annotated[Triple, POSITION]
 Direction: TypeAlias = Annotated[Triple, UNIT]
 Count: TypeAlias = Annotated[int, Within(0, 2**31 - 1)]
 Some: TypeAlias = Annotated[int, Within(1, 2**31 - 1)]
@@ -155,8 +155,8 @@ Pixel: TypeAlias = Annotated[int, Within(0, 65534)]
 class Extent(NamedTuple):
     """Corners of the box about all finite primitives of solids and lights, in world space; None without any."""
 
-    minimum: Place
-    maximum: Place
+    minimum: Position
+    maximum: Position
 
 
 class Ambient(NamedTuple):
@@ -204,8 +204,8 @@ class View(NamedTuple):
     The reference point is eye + distance normal; far from the origin rounding takes its digits.
     """
 
-    eye: Place
-    target: Place
+    eye: Position
+    target: Position
     fov: Annotated[float, Within(0.0, 180.0)]
     tilt: float
     width: Pixels
@@ -219,11 +219,11 @@ class View(NamedTuple):
     general_up: Direction
     right: Direction
     up: Direction
-    reference_point: Place
+    reference_point: Position
     distance: Amount
 
 
-class Scene(NamedTuple):
+class Globals(NamedTuple):
     """What a scene says once. `log_scale` 0 means none. `refract_reflections` is whether the air bends mirror rays
     too. `spans` are where its blocks stand, by keyword."""
 
@@ -241,7 +241,7 @@ class Scene(NamedTuple):
     spans: Mapping[str, Span] = {}
 
 
-def empty_tables() -> dict[str, Table]:
+def empty_tables() -> dict[str, Columns]:
     """Every table of TABLES without a row."""
     return {
         name: {c: np.zeros((0, *column.shape), column.dtype) for c, column in columns.items()}

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from m3dc.ir import LightKind, PrimitiveKind, SceneIR, Table, TextureKind
+from m3dc.ir import Columns, LightKind, PrimitiveKind, SceneIR, TextureKind
 
 from ..given import Given
 from ..good import Good, last_good
@@ -62,7 +62,7 @@ def _fields(label: str, record: Any, good: Good, ir: SceneIR) -> Node:
     return {"label": label, "children": children}
 
 
-def _row(name: str, table: Table, row: int, good: Good) -> Node:
+def _row(name: str, table: Columns, row: int, good: Good) -> Node:
     """A row of a table: what it is, for one that can be several things, and its columns."""
     node: Node = {"label": str(row)}
     columns: list[Node] = []

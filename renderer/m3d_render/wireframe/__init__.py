@@ -9,7 +9,7 @@ Edges are projected with straight rays, whatever MIRAGE says. Nearer lines are d
 them surfaces hide is asked of the ray tracer.
 """
 
-from m3d_render.wireframe.drawing import HIDDEN, Drawing, Hidden, Layer, project
+from m3d_render.wireframe.drawing import HIDDEN, Drawing, Hidden, Strokes, project
 from m3d_render.wireframe.edges import CIRCLE_STEPS, Edges, edges
 from m3d_render.wireframe.marks import MARKS
 from m3d_render.wireframe.picture import draw
@@ -23,7 +23,7 @@ __all__ = [
     "Drawing",
     "Edges",
     "Hidden",
-    "Layer",
+    "Strokes",
     "draw",
     "edges",
     "project",

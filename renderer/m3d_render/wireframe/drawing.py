@@ -28,7 +28,7 @@ _MOST_STEPS = 4000  # of a circle
 
 
 @dataclass(frozen=True, slots=True)
-class Layer:
+class Strokes:
     """The lines of one thing: `starts` and `ends` (n, 3) in columns and rows of the picture and nearness (see
     `camera.to_pixels`). `hidden` (n) says which lie behind a surface."""
 
@@ -45,7 +45,7 @@ class Drawing:
 
     columns: int
     rows: int
-    layers: list[Layer]
+    things: list[Strokes]
 
 
 class Options(TypedDict, total=False):
@@ -72,20 +72,20 @@ def project(ir: SceneIR, width: int | None = None, height: int | None = None, **
     columns, rows = width or scene.view.width, height or scene.view.height
     marked = frustum_points(ir) if "frustum" in named else np.zeros((0, 3))
     view = above(ir, columns, rows, marked) if options.get("from_above") else scene.view
-    things = edges(ir) if hidden == "show" else edges(ir, partial(_roundness, view, columns))
-    groups = [*things, *marks(ir, view, named)]
-    layers = [_layer(group, view, columns, rows) for group in groups]
+    found = edges(ir) if hidden == "show" else edges(ir, partial(_roundness, view, columns))
+    groups = [*found, *marks(ir, view, named)]
+    things = [_strokes(group, view, columns, rows) for group in groups]
     if hidden != "show":
-        layers = list(_divided(ir, view, columns, rows, layers, [group.curved for group in groups]))
+        things = list(_divided(ir, view, columns, rows, things, [group.curved for group in groups]))
         if hidden == "remove":
-            layers = [_without_hidden(layer) for layer in layers]
-    return Drawing(columns, rows, layers)
+            things = [_without_hidden(thing) for thing in things]
+    return Drawing(columns, rows, things)
 
 
-def _layer(group: Edges, view: View, columns: int, rows: int) -> Layer:
+def _strokes(group: Edges, view: View, columns: int, rows: int) -> Strokes:
     starts, ends = before_the_eye(view, to_camera(view, group.starts), to_camera(view, group.ends), columns, rows)
     a, b = within(to_pixels(view, starts, columns, rows), to_pixels(view, ends, columns, rows), columns, rows)
-    return Layer(group.name, group.color, a, b, np.zeros(len(a), bool))
+    return Strokes(group.name, group.color, a, b, np.zeros(len(a), bool))
 
 
 def _roundness(view: View, columns: int, centre: Points, radius: float) -> int:
@@ -98,25 +98,25 @@ def _roundness(view: View, columns: int, centre: Points, radius: float) -> int:
 
 
 def _divided(
-    ir: SceneIR, view: View, columns: int, rows: int, layers: list[Layer], curved: list[bool]
-) -> Iterator[Layer]:
-    """Layers whose lines are either hidden or not: those that are hidden in part are divided."""
+    ir: SceneIR, view: View, columns: int, rows: int, things: list[Strokes], curved: list[bool]
+) -> Iterator[Strokes]:
+    """Things whose lines are either hidden or not: those that are hidden in part are divided."""
     tracer = prepare(SceneIR(ir.scene._replace(view=view), ir.tables, ir.source)).kernel
-    for layer, one_piece in zip(layers, curved, strict=True):
-        across = np.abs(layer.ends - layer.starts)[:, :2].max(axis=1, initial=0.0)
+    for thing, one_piece in zip(things, curved, strict=True):
+        across = np.abs(thing.ends - thing.starts)[:, :2].max(axis=1, initial=0.0)
         counts = np.ones(len(across), np.int64) if one_piece else np.ceil(across / _PIECE).astype(np.int64) + 1
         line = np.repeat(np.arange(len(counts)), counts)
         step = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
-        a, b = layer.starts[line], layer.ends[line]
+        a, b = thing.starts[line], thing.ends[line]
         starts, ends = (between(a, b, place / counts[line]) for place in (step, step + 1))
         hidden = np.zeros(len(line), bool)
         for points in (starts, ends):
             hidden |= ~tracer.sees(to_scene(view, points, columns, rows), _TOLERANCE)
         first = np.flatnonzero(np.append(True, (line[1:] != line[:-1]) | (hidden[1:] != hidden[:-1])))[: len(line)]
         last = np.append(first[1:], len(line)) - 1 if len(line) else first
-        yield Layer(layer.name, layer.color, starts[first], ends[last], hidden[first])
+        yield Strokes(thing.name, thing.color, starts[first], ends[last], hidden[first])
 
 
-def _without_hidden(layer: Layer) -> Layer:
-    kept = ~layer.hidden
-    return Layer(layer.name, layer.color, layer.starts[kept], layer.ends[kept], layer.hidden[kept])
+def _without_hidden(thing: Strokes) -> Strokes:
+    kept = ~thing.hidden
+    return Strokes(thing.name, thing.color, thing.starts[kept], thing.ends[kept], thing.hidden[kept])

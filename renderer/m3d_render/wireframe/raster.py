@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from m3d_render.wireframe.drawing import Drawing, Layer
+    from m3d_render.wireframe.drawing import Drawing, Strokes
 
 Points = NDArray[np.float64]
 Paper = Literal["black", "white"]
@@ -39,14 +39,14 @@ def raster(drawing: Drawing, paper: Paper = "black") -> NDArray[np.float32]:
     white = 0.0 if paper == "black" else 1.0
     picture = np.full((drawing.rows, drawing.columns, 3), white, np.float32)
     nearness = np.full((drawing.rows, drawing.columns), -np.inf)
-    for layer in drawing.layers:
-        _draw_lines(picture, nearness, layer, visible(layer.color, paper), white)
+    for thing in drawing.things:
+        _draw_lines(picture, nearness, thing, visible(thing.color, paper), white)
     return picture
 
 
-def _draw_lines(picture: NDArray[np.float32], drawn: Points, layer: Layer, color: Points, paper: float) -> None:
-    """The lines of a layer, where nothing nearer has been drawn."""
-    a, b, dashed = layer.starts, layer.ends, layer.hidden
+def _draw_lines(picture: NDArray[np.float32], drawn: Points, thing: Strokes, color: Points, paper: float) -> None:
+    """The lines of a thing, where nothing nearer has been drawn."""
+    a, b, dashed = thing.starts, thing.ends, thing.hidden
     rows, columns = drawn.shape
     # Less than a pixel apart: points a whole pixel apart would leave gaps where they lie between two.
     steps = np.floor(np.abs(b - a)[:, :2].max(axis=1, initial=0.0)).astype(np.int64) + 2

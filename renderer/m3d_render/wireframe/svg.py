@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from m3d_render.wireframe.raster import DASH, FAINT, Paper, visible
 
 if TYPE_CHECKING:
-    from m3d_render.wireframe.drawing import Drawing, Layer
+    from m3d_render.wireframe.drawing import Drawing, Strokes
 
 Points = NDArray[np.float64]
 
@@ -25,25 +25,25 @@ def svg(drawing: Drawing, paper: Paper = "black") -> str:
         'stroke-linecap="round">',
         f'<rect x="-0.5" y="-0.5" width="{columns}" height="{rows}" fill="{paper}"/>',
     ]
-    by_name: dict[str, list[Layer]] = {}
-    for layer in drawing.layers:
-        by_name.setdefault(layer.name, []).append(layer)
-    for name, layers in by_name.items():
-        paths = [path for layer in layers for path in _paths(layer, paper)]
+    by_name: dict[str, list[Strokes]] = {}
+    for thing in drawing.things:
+        by_name.setdefault(thing.name, []).append(thing)
+    for name, things in by_name.items():
+        paths = [path for thing in things for path in _paths(thing, paper)]
         if paths:
             group = f'<g id="{name}" inkscape:groupmode="layer" inkscape:label="{name}">'
             parts += [group, f"<title>{name}</title>", *paths, "</g>"]
     return "\n".join([*parts, "</svg>", ""])
 
 
-def _paths(layer: Layer, paper: Paper) -> list[str]:
-    color = "".join(f"{round(255 * float(part)):02x}" for part in np.clip(visible(layer.color, paper), 0, 1))
+def _paths(thing: Strokes, paper: Paper) -> list[str]:
+    color = "".join(f"{round(255 * float(part)):02x}" for part in np.clip(visible(thing.color, paper), 0, 1))
     paths: list[str] = []
     for hidden in (True, False):
-        chosen = layer.hidden == hidden
+        chosen = thing.hidden == hidden
         if chosen.any():
             dashes = f' stroke-dasharray="{DASH}" stroke-opacity="{FAINT}"' if hidden else ""
-            lines = _lines(layer.starts[chosen], layer.ends[chosen])
+            lines = _lines(thing.starts[chosen], thing.ends[chosen])
             paths.append(f'<path stroke="#{color}"{dashes} d="{lines}"/>')
     return paths
 

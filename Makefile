@@ -16,7 +16,8 @@ NEEDS_NODE := if ! command -v npm > /dev/null; then \
 CARGO_TEST := cargo test --quiet --release --workspace --manifest-path renderer/Cargo.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-extension test-workbench fuzz lint lint-extension format generate pins gallery bench vsix
+.PHONY: help demo test test-quick test-extension test-workbench fuzz lint lint-extension format generate pins gallery
+.PHONY: bench vsix
 .PHONY: needs programs tools modules viewer wasm wheels release release-tools
 
 help: ## Show this list
@@ -26,8 +27,11 @@ help: ## Show this list
 demo: ## Render the merman scene with straight and with bent rays into out/
 	@PYTHON="$(PYTHON)" MAKE="$(MAKE)" sh tools/demo.sh
 
+# One process a processor takes the next tests whenever it is done with its own.
+PYTEST := $(BIN)/python -m pytest -q -n auto --maxprocesses 8 --dist worksteal
+
 test: tools ## Run all tests
-	$(BIN)/python -m pytest -q
+	$(PYTEST)
 	$(CARGO_TEST)
 	@$(MAKE) --no-print-directory test-extension
 

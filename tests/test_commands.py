@@ -18,6 +18,8 @@ from typing import IO, Any, NamedTuple
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ENTRIES = {entry.name: entry.value for entry in importlib.metadata.entry_points(group="console_scripts")}
 NAMES = ("m3dc", "m3dfmt", "m3d-render", "m3d-rays", "m3d-plot", "m3d-view", "mirage3d", "m3d-lsp")
 SCENE = """SCENE {

@@ -10,6 +10,8 @@ import pytest
 
 from fuzz import TARGETS, USUAL_CASES, Failure, repeating
 
+pytestmark = pytest.mark.slow
+
 
 def make(chance: random.Random) -> bytes:
     return b"%d" % chance.randrange(10)

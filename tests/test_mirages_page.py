@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
 from pictures import assert_current, stored
 
 from tools import mirages_page
@@ -20,6 +21,7 @@ def test_every_picture_is_made_by_a_command_of_the_page() -> None:
     assert all(file.stat().st_size < MOST_BYTES for file in mirages_page.IMAGES.iterdir())
 
 
+@pytest.mark.slow
 def test_the_rendered_pictures_are_current(tmp_path: Path) -> None:
     """Figures are left out: another version of matplotlib may set their text otherwise."""
     rendered = [name for name, command in mirages_page.commands().items() if "m3d-render" in command]

@@ -87,6 +87,7 @@ edits = st.lists(
 )
 
 
+@pytest.mark.slow
 @given(edits)
 @example([(SCENE.index("far = 30"), 9, [])])  # a variable is assigned to no more
 @example([(SCENE.index("NUMBER size"), 0, ["/*"]), (SCENE.index("NUMBER size"), 2, [])])
@@ -105,6 +106,7 @@ def test_after_edits_all_is_as_from_the_start(changes: list[tuple[int, int, list
         check_same(analyser.analyse(Source(text.encode())), text.encode())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["merman", "wheel", "terrain", "runway"])
 def test_a_scene_typed_word_by_word(name: str, examples: Path) -> None:
     """Every few words the text so far is looked at, as an editor would."""

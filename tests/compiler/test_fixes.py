@@ -64,6 +64,7 @@ def check(data: bytes, *, hidden: bool = False) -> None:
     pytest.fail(f"no end: {data.decode()}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["merman", "runway", "wheel", "two-balls", "cylinder-and-cone"])
 def test_of_examples_with_a_slip(name: str) -> None:
     text = (EXAMPLES / f"{name}.m3d").read_text(encoding="utf-8")

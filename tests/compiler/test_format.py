@@ -78,6 +78,7 @@ def test_width_is_counted_in_characters() -> None:
 # --- large tables ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("eol", ["\n", "\r\n"])
 @pytest.mark.parametrize("untidy", ["", " ", "\t", "\f", "{eol}", "{eol}{eol} {eol}", " /* c */", " /* c{eol}d */ "])
 def test_a_table_of_many_chunks_is_laid_out_like_a_small_one(eol: str, untidy: str) -> None:

@@ -13,6 +13,8 @@ import pytest
 
 from m3dc.commands import m3dfmt as format_cli
 
+pytestmark = pytest.mark.slow
+
 UNTIDY = "SOLID{SPHERE{RADIUS 2}}\n"
 TIDY = "SOLID { SPHERE { RADIUS 2 } }\n"
 BROKEN = "x=1\nSOLID { SPHERE { RADIUS }\n"

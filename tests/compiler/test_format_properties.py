@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from random import Random
 
 import numpy as np
+import pytest
 from conftest import REPOSITORY
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -20,6 +21,8 @@ from m3d_language.table import LANGUAGE
 from m3dc.format import Edit, FormatError, edits, format, format_range
 from m3dc.format.diff import unified_diff
 from m3dc.ir import TABLES
+
+pytestmark = pytest.mark.slow
 
 SPELLINGS: dict[str, st.SearchStrategy[str]] = {
     "IDENTIFIER": st.sampled_from(["x", "y", "the_ground", "e5", "a_name_of_more_than_thirty_two_characters"]),

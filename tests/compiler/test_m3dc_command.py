@@ -13,6 +13,8 @@ import pytest
 
 from m3dc.ir import m3ir
 
+pytestmark = pytest.mark.slow
+
 GOOD = "SCENE { SKY { } } SOLID { SPHERE { RADIUS 2 } }\n"
 BAD = "SOLID { SPHERE { RADIUS -2 } }\n"
 

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import pytest
 from mutations import Mutation, mutations
 
 import m3dc
@@ -68,6 +69,7 @@ def is_sentence(text: str) -> bool:
     return True
 
 
+@pytest.mark.slow
 def test_the_first_diagnostic_is_where_the_mistake_is() -> None:
     found = list(outcomes(seed=1993, count=1500))
     for outcome in found:

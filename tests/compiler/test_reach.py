@@ -91,6 +91,7 @@ def test_after_an_edit_it_is_still_said() -> None:
         assert found == m3dc.compile(text).diagnostics
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", list(itertools.chain(list(FAR.values())[:4], NOT_UNDONE.values())))
 def test_checking_says_what_compiling_says(text: str, tmp_path: Path) -> None:
     scene, ir = tmp_path / "a.m3d", tmp_path / "a.m3ir"

@@ -15,6 +15,8 @@ import m3dc
 from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analyser
 
+pytestmark = pytest.mark.slow
+
 FOREST = "VARIABLES { SOLID a; } a = { " + "SPHERE { } " * 2000 + "} "
 
 

@@ -63,6 +63,7 @@ def test_the_check_tells_what_is_not_current(tmp_path: Path) -> None:
     assert "SIZE: /SIZE" in (copy / "m3d.lark").read_text("utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="needs cargo")
 def test_the_parser_is_current(tmp_path: Path) -> None:
     """Takes a minute the first time, when the parser generator is built."""

@@ -84,6 +84,7 @@ def test_any_tokens(tokens: list[str]) -> None:
     first_error(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", [b"ab $ {} < 3 ; foo\n", b"{", b"word ", b"a#b9!\n?>,;", b"SOLID { SPHER } }\n"])
 def test_of_much_junk_only_the_beginning_is_read(line: bytes) -> None:
     """The rest costs nothing: what is found is found in the first half megabyte."""

@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.lark import from_lark
@@ -55,6 +56,7 @@ def agree(text: str) -> None:
     assert (fault is None) == (faults == []), f"formal grammar: {fault}; compiler: {faults}"
 
 
+@pytest.mark.slow
 @given(sentences)
 def test_sentences_are_accepted_by_both(text: str) -> None:
     assert first_error(text) is None
@@ -87,6 +89,7 @@ TEXTS = [
 ]
 
 
+@pytest.mark.slow
 def test_every_prefix_is_judged_alike() -> None:
     """A text that breaks off anywhere, in a block or a word: what is no sentence is never accepted in silence."""
     for text in TEXTS:
@@ -107,6 +110,7 @@ def test_changed_texts_are_judged_alike(text: str, data: st.DataObject) -> None:
     agree(" ".join(tokens))
 
 
+@pytest.mark.slow
 def test_members_of_every_block() -> None:
     """Every keyword in every block, in every form: as a flag, with up to four arguments, as a block, as a table."""
     forms = ["", "1", "x", "< 1, 2, 3 >", "1, 2", "1, 2, 3, 4", "{ }", "x { }", "{ 1 2 3 < 1, 2, 3 > }", "= 1"]

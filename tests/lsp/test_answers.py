@@ -14,6 +14,8 @@ import pytest
 
 from fuzz import protocol as session
 
+pytestmark = pytest.mark.slow
+
 SERVER = [sys.executable, "-m", "m3d_lsp"]
 PATIENCE_S = 30
 URI = session.URI

@@ -51,6 +51,7 @@ def ask_about_all(snapshot: Snapshot) -> None:
         assert colour.colour_presentation(snapshot, types.ColorPresentationParams(IDENTIFIER, found.color, found.range))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES, ids=lambda path: path.stem)
 def test_every_mistake(scene: Path) -> None:
     snapshot = look(scene.read_text(encoding="utf-8", errors="surrogateescape"))

@@ -11,7 +11,7 @@ from pygls.exceptions import JsonRpcMethodNotFound
 
 import m3dc
 
-pytestmark = pytest.mark.asyncio(loop_scope="session")
+pytestmark = [pytest.mark.asyncio(loop_scope="session"), pytest.mark.slow]
 
 EDITORS = [
     "visual_studio_code_v1.65.2",

@@ -395,6 +395,7 @@ def errors(text: str) -> int:
 SCENES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DIAGNOSTICS.glob("*.m3d"))}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 async def test_no_action_adds_an_error(editor: Editor, name: str) -> None:
     """Every action at every diagnostic of the scenes that show them, and all fixes at once."""
@@ -468,6 +469,7 @@ async def test_fix_all_adds_no_error_and_comes_to_an_end(editor: Editor, name: s
             pytest.fail(f"no end: {mutation.what}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["wheel", "two-balls", "terrain", "cylinder-and-cone"])
 async def test_a_change_of_form_leaves_the_scene_as_it_is(editor: Editor, name: str, examples: Path) -> None:
     """Every refactoring at the beginning of every word of an example."""

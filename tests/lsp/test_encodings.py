@@ -20,6 +20,7 @@ COUNTED: dict[str, Callable[[str], int]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", COUNTED)
 async def test_places_count_what_was_agreed_on(encoding: str) -> None:
     client, capabilities = await start_server(encoding=encoding)

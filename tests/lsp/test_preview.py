@@ -484,6 +484,7 @@ async def test_a_drawing_process_that_dies_is_replaced() -> None:
         await client.shutdown_session()
 
 
+@pytest.mark.slow
 @on_linux
 @pytest.mark.parametrize("how", ["the client says so", "the client is gone", "the server is killed"])
 async def test_no_process_is_left_behind(how: str) -> None:

@@ -10,6 +10,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 SERVER = [sys.executable, "-c", "import sys; from m3d_lsp.cli import main; sys.exit(main([]))"]
 PATIENCE_S = 60
 

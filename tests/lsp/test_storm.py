@@ -19,7 +19,7 @@ from pygls.exceptions import JsonRpcException, JsonRpcRequestCancelled
 
 import m3dc
 
-pytestmark = pytest.mark.asyncio(loop_scope="session")
+pytestmark = [pytest.mark.asyncio(loop_scope="session"), pytest.mark.slow]
 
 EDITS = 500
 MOST_WAITING = 12  # of requests: an editor asks for no more at once

@@ -23,6 +23,8 @@ import m3d_render
 from m3d_render.picture import linear
 from m3dc.ir import m3ir
 
+pytestmark = pytest.mark.slow
+
 SCENE = "SCENE { VIEW { WIDTH 12 HEIGHT 8 } BACKGROUND <0.2, 0.4, 0.6> }"
 
 

@@ -100,6 +100,7 @@ except PictureError as error:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", [0, 5000, -1])
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_a_full_disk_leaves_the_old_file(tmp_path: Path, suffix: str, room: int):

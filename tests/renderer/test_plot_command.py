@@ -19,6 +19,8 @@ from m3d_render import plot
 from m3d_render.plot.cli import main
 from m3dc.ir import SceneIR, m3ir
 
+pytestmark = pytest.mark.slow
+
 SIGNATURES = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG"}
 
 

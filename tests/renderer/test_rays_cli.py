@@ -17,6 +17,8 @@ from scene_builder import SceneBuilder, merman
 from m3d_render.optics import trace_crossings, trace_paths
 from m3dc.ir import SceneIR, m3ir
 
+pytestmark = pytest.mark.slow
+
 
 def command(*arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
     words = [sys.executable, "-m", "m3d_render.rays_cli", *map(str, arguments)]

@@ -31,6 +31,8 @@ from m3d_render.view.viewpoint import fitting_vertical
 from m3d_render.view.window import Window
 from m3dc.ir import Triple
 
+pytestmark = pytest.mark.slow
+
 RED, GREEN, BLUE, YELLOW = (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)
 
 # A camera whose picture of the plane x = 0 maps y and z to pixels two to one: 201 pixels for -50..50.

@@ -35,6 +35,9 @@ test: tools ## Run all tests
 	$(CARGO_TEST)
 	@$(MAKE) --no-print-directory test-extension
 
+test-quick: tools ## Run the tests that are quick, for daily work: two minutes at most
+	$(PYTEST) -m "not slow"
+
 test-extension: ## Run the tests of the picture part, and those of the VS Code extension that need no VS Code
 	@$(NEEDS_NODE) $(MAKE) --no-print-directory modules && for part in $(PICTURE) $(EXTENSION); do \
 		(cd $$part && npm test --silent) || exit 1; done

@@ -156,6 +156,8 @@ class Language:
         self.limits: Mapping[str, int] = {name: int(most) for name, most in table["limit"].items()}
         self.reserved: tuple[str, ...] = tuple(table["reserved"])
         self.elsewhere: Mapping[str, str] = table["elsewhere"]
+        self.types_elsewhere: Mapping[str, str] = table["type_elsewhere"]
+        self.values_elsewhere: Mapping[str, str] = table["value_elsewhere"]
         self.colours: Mapping[str, str] = table["colour"]
         self.kinds: dict[str, Argument] = {kind: _kind(kind, entry) for kind, entry in table["argument"].items()}
         self.basics: dict[str, Basic] = {

@@ -18,6 +18,7 @@ from .findings import Diagnostic, Fix, finding
 
 ALLOW = re.compile(rb"/\*\s*m3d:\s*allow\s+([A-Z0-9,\s]+?)\s*\*/")
 _DIRECTIVE = re.compile(rb"/\*\s*m3d:\s*([A-Za-z]*)([^*]*)\*/")
+_CODE = re.compile(r"(?:M3D?)?-?([0-9]{1,4})")
 _WORD = re.compile(rb"[^\s,]+")
 _COMMENT = re.compile(rb"\s*/\*(?:(?!/\*|\*/).)*\*/", re.DOTALL)
 
@@ -64,16 +65,23 @@ def wrong_directives(source: Source) -> Iterator[Diagnostic]:
                 yield _wrong(source, code.span(), f"{text} is an error, which can not be kept back", "", [])
 
 
+def _meant(word: str, words: list[str]) -> str | None:
+    """The word that was meant. A code is its number, however that is written: one next to it has nothing to do with
+    it."""
+    if words == ["allow"]:
+        return next(iter(get_close_matches(word.lower(), words, 1, 0.8)), None)
+    number = _CODE.fullmatch(word.upper())
+    code = f"M3D{int(number[1]):04}" if number else ""
+    return code if code in words else None
+
+
 def _wrong(source: Source, span: Span, detail: str, word: str, words: list[str]) -> Diagnostic:
     place = Absolute(source.file, *span)
-    near = get_close_matches(word.upper() if words != ["allow"] else word.lower(), words, 2, 0.8)
-    detail += f"; did you mean {near[0]}?" if near else ""
-    # A code in lower case is certain; of others several are alike.
-    fix = (
-        Fix(f"Replace with {near[0]}", place, near[0], certain=True)
-        if near and near[0].lower() == word.lower()
-        else None
-    )
+    meant = _meant(word, words)
+    detail += f"; did you mean {meant}?" if meant else ""
+    # A code in lower case or without its zeros is certain.
+    sure = meant is not None and (meant != "allow" or word.lower() == meant)
+    fix = Fix(f"Replace with {meant}", place, meant, certain=True) if meant is not None and sure else None
     return finding(catalogue.IDLE_DIRECTIVE, place, detail, fix=fix)
 
 

@@ -38,6 +38,13 @@ def certain(word: str, known: Collection[str]) -> str | None:
     return found[0] if len(found) == 1 else None
 
 
+def meant_type(word: str) -> str | None:
+    """The type that a word can only be that is none: it is nearly one, or another language's word for it."""
+    near = certain(word, LANGUAGE.types)
+    elsewhere = LANGUAGE.types_elsewhere.get(word.lower())
+    return near or (elsewhere if elsewhere in LANGUAGE.types else None)
+
+
 def _most_alike(word: str, known: Sequence[str]) -> str | None:
     """The known word that is most like another. One of twice the length of all of them is like none."""
     if len(word) > 2 * max(map(len, known), default=0):

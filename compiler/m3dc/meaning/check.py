@@ -18,7 +18,7 @@ from m3d_language.table import LANGUAGE
 
 from ..diagnostics import Findings, Fix, ItemFindings, Related, catalogue
 from ..diagnostics.findings import moved_fix
-from ..diagnostics.spelling import Names, certain, nearest
+from ..diagnostics.spelling import Names, meant_type, nearest
 from ..diagnostics.words import CAPITALS, place_of, statement_of, takes
 from ..syntax import ast, numerals
 from ..syntax.table_faults import layout_of, table_fault
@@ -116,7 +116,7 @@ class Checker:
         for declaration in item.declarations:
             type_ = declaration.type.text
             if type_ not in LANGUAGE.types:
-                type_ = certain(type_, LANGUAGE.types) or ""
+                type_ = meant_type(type_) or ""
             for number, name in enumerate(declaration.names):
                 before = self.known.get(name.text)
                 if before is not None and self._names:
@@ -139,13 +139,16 @@ class Checker:
         wrong = [type_ for type_ in types if type_.text not in LANGUAGE.types]
         small = [type_ for type_ in wrong if type_.text.upper() in LANGUAGE.types]
         for type_ in wrong:
-            near = certain(type_.text, LANGUAGE.types)
+            near = meant_type(type_.text)
+            elsewhere = LANGUAGE.types_elsewhere.get(type_.text.lower())
             fix = Fix(f"Replace with {near}", type_.span, near, certain=True) if near else None
             if type_ in small:
                 if type_ is not small[0]:
                     continue
                 says = f"did you mean {near}? {CAPITALS}"
                 fix = self._in_capitals(small)
+            elif elsewhere is not None:
+                says = elsewhere if near is None else f"write {near}"
             elif near is not None or (near := nearest(type_.text, LANGUAGE.types)) is not None:
                 says = f"did you mean {near}?"
             else:
@@ -220,7 +223,8 @@ class Checker:
         """What is known of a variable; reports an undeclared name, and what there is to say of it `also`."""
         known = self.known.get(name.text)
         if known is None and self.known.get(_lost(name.text)) is None:
-            near = self._near(name.text)
+            elsewhere = LANGUAGE.values_elsewhere.get(name.text.lower())
+            near = self._near(name.text) if elsewhere is None else None
             if near is not None:
                 detail = f"{name.text} is not declared before here; did you mean {near}?"
                 fix = Fix(f"Replace with {near}", name.span, near)  # or it is a name that is yet to be declared
@@ -229,6 +233,8 @@ class Checker:
                 self.known[near] = meant._replace(assigned=True, used=True, unknown=meant.type in LANGUAGE.basics)
             else:
                 detail, fix = f"{name.text} is not declared in a VARIABLES block before here{also}", None
+                if elsewhere is not None:
+                    detail += f"; {elsewhere}"
                 colour = LANGUAGE.colours.get(name.text.lower()) if wanted == "VECTOR" else None
                 if colour is not None:
                     detail += f"; there are no colours by name: {name.text} is {colour}"

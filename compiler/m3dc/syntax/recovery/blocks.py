@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import re
 
-from m3d_language.table import LANGUAGE, Block
+from m3d_language.table import LANGUAGE, Block, Statement
 
 from ...diagnostics import catalogue
 from ...diagnostics.spelling import certain, nearest
-from ...diagnostics.words import CAPITALS, members, place_of, statement_of
+from ...diagnostics.words import CAPITALS, members, place_of, statement_of, takes
 from .. import ast, numerals
 from . import skip, wording
 from .arguments import read_arguments
+from .calculation import colour_of
 from .cursor import Cursor
 from .lexer import Token
-from .misplaced import pass_misplaced, pass_quoted
+from .misplaced import is_tag, pass_misplaced, pass_quoted, pass_tag
 from .nesting import close_block, end_unclosed, open_block, pass_too_deep
 from .tables import read_table
-from .values import is_bracketed, read_value, report_bare_vector, starts_value
+from .values import HEX_COLOUR, is_bracketed, read_value, report_bare_vector, starts_value
 from .variables import read_variables
 
 _TABLES = frozenset(keyword for block in LANGUAGE.blocks.values() for keyword in block.tables)
 _STATEMENTS = {keyword: entry for block in LANGUAGE.blocks.values() for keyword, entry in block.statements.items()}
+_NUMBERS = re.compile(r"(?:[-+0-9.eE]+(?:, *)?)+")
 _GLUED = re.compile(r"([A-Za-z]+)([0-9]+)")
 
 
@@ -81,6 +83,9 @@ def _member(cursor: Cursor, block: Block | None) -> ast.Item | None:
         return read_word_member(cursor, block)
     if token.kind == "string" and cursor.peek(1).text in (":", "="):
         return _quoted_key(cursor, block)
+    if is_tag(cursor):
+        pass_tag(cursor, block)
+        return None
     if token.kind == "<" or token.kind == "number":
         holds = f": {block.keyword} holds {wording.some(block.members())}" if block is not None else ""
         cursor.faults.invalid(
@@ -167,6 +172,12 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
     meant = certain(word.text, fits)
     entry = catalogue.INVALID_IN_BLOCK if block is not None else catalogue.INVALID_AT_TOP
     fill = statement_of(block.keyword) if block is not None else ""
+    if block is None and cursor.around and spelt in LANGUAGE.keywords:
+        # What holds this block is not known, because the variable is not declared: its words are.
+        meant, cursor.doubtful = spelt, True
+    if meant is not None and block is not None and meant in block.statements and cursor.peek().text == "(":
+        _call(cursor, block, word, block.statements[meant])
+        return None
     if meant is not None:
         capitals = meant == spelt
         says = f"did you mean {meant}?" + (f" {CAPITALS}" if capitals else "")
@@ -178,7 +189,11 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
         )
         return read_keyword_member(cursor, block, word, meant)
     cursor.doubtful = True
-    near = nearest(word.text, fits)
+    near = nearest(word.text, fits) if "-" not in word.text else None
+    unfit = certain(word.text, block.statements) if block is not None else None
+    if unfit is not None and block is not None:
+        _unfit(cursor, block, word, block.statements[unfit])
+        return None
     if spelt in LANGUAGE.keywords:
         says = f"{place_of(spelt, cursor.around)}; {CAPITALS}"
     elif near is not None and word.text.lower() not in LANGUAGE.elsewhere:
@@ -190,6 +205,54 @@ def read_word_member(cursor: Cursor, block: Block | None) -> ast.Item | None:
         return read_keyword_member(cursor, block, word, near)
     skip.unknown(cursor)
     return None
+
+
+def _unfit(cursor: Cursor, block: Block, word: Token, entry: Statement) -> None:
+    """A statement in small letters or misspelt, before what it does not take."""
+    says = f"{wording.found(word)}; did you mean {entry.keyword}? It {takes(entry)}"
+    value = cursor.peek()
+    edits = None
+    if value.kind == "number" and not entry.is_flag and entry.arguments[0].name == "color":
+        edits = [((word.start, value.end), f"{entry.keyword} < {value.text}, {value.text}, {value.text} >")]
+    title = f"Write {edits[0][1]}" if edits else ""
+    cursor.faults.add(
+        catalogue.INVALID_IN_BLOCK,
+        word.span,
+        says,
+        fill=statement_of(block.keyword),
+        edits=edits,
+        title=title,
+        sure=False,
+    )
+    skip.unknown(cursor)
+
+
+def _call(cursor: Cursor, block: Block, word: Token, entry: Statement) -> None:
+    """A statement written as a call: `color("red")`, `radius(2)`."""
+    opener = cursor.peek()
+    skip.all_brackets(cursor)
+    value = _argument_of_call(cursor.data[opener.end : cursor.before - 1].decode("utf-8", "replace"), entry)
+    says = f"{wording.found(word)}; a statement is a keyword and what it takes, without brackets"
+    span = (word.start, cursor.before)
+    edits = [(span, f"{entry.keyword} {value}")] if value else None
+    title = f"Write {entry.keyword} {value}"
+    cursor.faults.invalid(block, word.span, says, edits=edits, title=title)
+    cursor.doubtful = True
+    if cursor.peek().kind == ";":
+        cursor.next()
+
+
+def _argument_of_call(text: str, entry: Statement) -> str | None:
+    """What stands in the brackets of a call, as the statement takes it; None where that is not plain."""
+    inner = text.strip().strip("\"'[]").strip()
+    if entry.is_flag:
+        return None
+    if entry.arguments[0].shape == "vector":
+        if inner.startswith("#"):
+            return colour_of(inner) if HEX_COLOUR.fullmatch(inner) else None
+        vector = f"< {inner} >" if _NUMBERS.fullmatch(inner) and inner.count(",") == 2 else None
+        return LANGUAGE.colours.get(inner.lower()) or vector
+    return inner if _NUMBERS.fullmatch(inner) and inner.count(",") == len(entry.arguments) - 1 else None
 
 
 def _unknown(cursor: Cursor, word: Token, block: Block | None) -> str:

@@ -55,6 +55,7 @@ class Cursor:
         self.types = types  # of variables, by name
         self.names: set[str] = set()  # that may be declared or assigned to
         self.blocks: dict[int, tuple[str, int]] = {}  # by the starts of top-level blocks, keyword and closing brace
+        self.in_directive = False  # whether one as `#if` has been reported, of which `#else` and `#end` are parts
         self._ahead: list[Token] = []
         self.begin(0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from m3d_language.table import LANGUAGE
 
 from ...diagnostics import catalogue
-from ...diagnostics.spelling import certain, nearest
+from ...diagnostics.spelling import certain, meant_type, nearest
 from ...diagnostics.words import CAPITALS, members, place_of
 from .. import ast
 from . import skip, wording
@@ -99,7 +99,11 @@ def _declared_outside(cursor: Cursor) -> None:
     first = cursor.next()
     name = cursor.next()
     cursor.names.add(name.text)
-    type_ = first.text if first.text in LANGUAGE.types else nearest(first.text, LANGUAGE.types) or "NUMBER"
+    type_ = (
+        first.text
+        if first.text in LANGUAGE.types
+        else meant_type(first.text) or nearest(first.text, LANGUAGE.types) or "NUMBER"
+    )
     says = f"variables are declared in VARIABLES {{ {type_} {name.text}; }} and assigned to after it"
     cursor.faults.add(
         catalogue.INVALID_AT_TOP, first.span, f"{wording.found(first)}; {says}", kind="declaration outside"

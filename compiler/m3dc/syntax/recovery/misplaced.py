@@ -12,9 +12,15 @@ from . import skip, wording
 from .cursor import Cursor
 from .lexer import CLOSERS, Token
 
+_GOES_ON = frozenset(["end", "endif", "else", "elif", "elseif", "break", "case", "range"])  # a directive before
+_NO_SELECTOR = "a block begins with its keyword, and what a thing is called stands in a comment"
+
 
 def pass_misplaced(cursor: Cursor, block: Block | None, entry: Entry | None = None) -> None:
     """Pass what can not stand here, and say so."""
+    if is_tag(cursor):
+        pass_tag(cursor, block)
+        return
     token = cursor.next()
     after = cursor.peek()
     if (
@@ -22,13 +28,26 @@ def pass_misplaced(cursor: Cursor, block: Block | None, entry: Entry | None = No
         and after.kind in ("keyword", "word")
         and (token.first or not cursor.open)
     ):
+        if cursor.peek(1).text == ":" and cursor.peek(2).first:
+            cursor.next()
+            says = f"found '{token.text} {after.text}:'; what belongs to a block stands between {{ and }}"
+            cursor.faults.invalid(block, (token.start, cursor.next().end), says)
+            cursor.doubtful = True
+            skip.indented(cursor, token)
+            return
         cursor.faults.superfluous(token, "statements follow one another without a mark before them", sure=False)
         return
     if token.text in (".", "$", "@", "\\") and after.kind in ("keyword", "word") and not after.gap:
         cursor.next()
         text = token.text + after.text
-        says = f"found {text!r}; {wording.LETTERS}"
         meant = certain(after.text, members(block)) if token.text == "." else None
+        if token.text == "\\" and after.text in ("begin", "end"):
+            _environment(cursor, block, token)
+            return
+        says = LANGUAGE.elsewhere.get(text.lower())
+        if says is None and meant is None and token.text in (".", "@") and _opens_block(cursor):
+            says = _NO_SELECTOR
+        says = f"found {text!r}; {says or wording.LETTERS}"
         says += f"; did you mean {meant}?" if meant else ""
         cursor.faults.invalid(block, (token.start, after.end), says)
         cursor.doubtful = True
@@ -83,9 +102,73 @@ def pass_misplaced(cursor: Cursor, block: Block | None, entry: Entry | None = No
             skip.lines(cursor)
 
 
+def _opens_block(cursor: Cursor) -> bool:
+    """Whether a brace opens on the line, as after a selector of CSS."""
+    token = cursor.peek()
+    return token.kind == "{" and not token.first
+
+
+def is_tag(cursor: Cursor) -> bool:
+    """Whether a tag of HTML or XML comes next: `<sphere radius="1"/>`, `</solid>`, `<?xml ..?>`, `<!DOCTYPE ..>`."""
+    token, after = cursor.peek(), cursor.peek(1)
+    if token.kind != "<" or after.gap:
+        return False
+    if after.text in ("/", "!", "?"):
+        return True
+    then = cursor.peek(2)
+    return after.kind in ("word", "keyword") and (then.kind in (">", "word", "keyword") or then.text in ("/", ":"))
+
+
+def pass_tag(cursor: Cursor, block: Block | None) -> None:
+    """Pass a tag, and those that follow it with what is between them."""
+    start = cursor.peek().start
+    word = cursor.peek(1).text
+    _pass_one_tag(cursor)
+    meant = certain(word, LANGUAGE.blocks)
+    says = "a scene is written in blocks, not in tags" + (f": {meant} {{ .. }}" if meant else "")
+    cursor.faults.invalid(block, (start, cursor.before), f"found a tag; {says}", kind="tag")
+    cursor.doubtful = True
+    while (token := cursor.peek()).kind not in ("end", "{", "}", "keyword"):
+        if is_tag(cursor):
+            _pass_one_tag(cursor)
+        elif token.first and token.kind == "word" and cursor.peek(1).kind in ("=", "{"):
+            return
+        else:
+            cursor.next()
+
+
+def _pass_one_tag(cursor: Cursor) -> None:
+    while cursor.peek().kind not in (">", "end", "{", "}"):
+        cursor.next()
+    if cursor.peek().kind == ">":
+        cursor.next()
+
+
+def _environment(cursor: Cursor, block: Block | None, start: Token) -> None:
+    """`\\begin{solid} .. \\end{solid}` of LaTeX; its first word has been passed."""
+    named = cursor.peek(1) if cursor.peek().kind == "{" and cursor.peek(1).kind in ("word", "keyword") else None
+    meant = certain(named.text, LANGUAGE.blocks) if named is not None else None
+    if cursor.peek().kind == "{":
+        skip.group(cursor)
+    says = f"a block is a keyword and braces: {meant or 'SOLID'} {{ .. }}"
+    cursor.faults.invalid(block, (start.start, cursor.before), f"found an environment of LaTeX; {says}", kind="latex")
+    cursor.doubtful = True
+    lexer = cursor.look(cursor.peek().start)
+    while (token := lexer.next()).kind != "end":
+        if token.text == "\\" and lexer.next().text == "end":
+            while cursor.peek().kind != "end" and cursor.peek().start < lexer.at:
+                cursor.next()
+            if cursor.peek().kind == "{":
+                skip.group(cursor)
+            return
+
+
 def _directive(cursor: Cursor, token: Token) -> None:
     """`#declare name = value;` and its like."""
     word = token.text[1:].lower()
+    if word in _GOES_ON and cursor.in_directive:
+        return
+    cursor.in_directive |= word not in _GOES_ON
     if word in ("declare", "local", "define", "let", "var", "const"):
         if cursor.peek().kind in ("word", "keyword"):
             name = cursor.next().text
@@ -97,6 +180,10 @@ def _directive(cursor: Cursor, token: Token) -> None:
             says = f"{wording.found(token)}; a variable is declared in VARIABLES"
     elif word in LANGUAGE.elsewhere:
         says = f"{wording.found(token)}; {LANGUAGE.elsewhere[word]}"
+    elif _opens_block(cursor):
+        says = (
+            f"{wording.found(token)}; a block begins with its keyword, and what a thing is called stands in a comment"
+        )
     elif not cursor.open and token.first:
         says = f"{wording.found(token)}; a comment stands between /* and */"
     else:

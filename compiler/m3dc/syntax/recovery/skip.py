@@ -47,7 +47,9 @@ def unknown(cursor: Cursor) -> None:
         token = cursor.peek()
         if token.kind == "{":
             group(cursor)
-            return
+            token = cursor.peek()
+            if token.kind != ";":
+                return
         if token.kind == ";":
             cursor.next()
             return

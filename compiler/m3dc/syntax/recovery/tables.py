@@ -7,6 +7,7 @@ import re
 from m3d_language.table import Block
 
 from ...diagnostics import catalogue
+from ...diagnostics.words import members
 from ...text.span import Span
 from .. import ast
 from . import skip, wording
@@ -37,6 +38,13 @@ def read_table(cursor: Cursor, keyword: ast.Keyword, token: Token, block: Block 
     entries: list[ast.Argument] = []
     while (next_ := cursor.peek()).kind not in ("}", "end") and not cursor.ends_all(next_):
         if next_.kind == "keyword" or (next_.kind == "word" and cursor.peek(1).kind in ("{", "=")):
+            if next_.kind != "keyword" or next_.text in members(block) or not _is_closed(cursor):
+                break
+            says = f"{wording.found(next_)}; a table holds numbers and vectors"
+            cursor.faults.add(catalogue.EXPECTED_NUMBER, next_.span, says, kind="table words")
+            cursor.doubtful = True
+            while cursor.peek().kind != "}":
+                cursor.next()
             break
         if starts_value(cursor) and next_.kind != "{":
             value = read_value(cursor, None, table=True)
@@ -57,6 +65,15 @@ def read_table(cursor: Cursor, keyword: ast.Keyword, token: Token, block: Block 
     else:
         end_unclosed(cursor, cursor.peek())
     return ast.Table(keyword, None, tuple(entries), cursor.since(token))
+
+
+def _is_closed(cursor: Cursor) -> bool:
+    """Whether the table goes on to a closing brace of its own: none opens before."""
+    lexer = cursor.look(cursor.peek().start)
+    while (token := lexer.next()).kind not in ("end", "{"):
+        if token.kind == "}":
+            return True
+    return False
 
 
 def _flatten(cursor: Cursor, entries: list[ast.Argument]) -> None:

@@ -16,7 +16,7 @@ from .cursor import Cursor
 from .expressions import OPERATORS, PARTS, operand_follows, pass_part, report_expression, report_percent
 from .lexer import CLOSERS, Token
 
-_HEX_COLOUR = re.compile(r"#(?:[0-9a-fA-F]{3}|[0-9a-fA-F]{6})")
+HEX_COLOUR = re.compile(r"#(?:[0-9a-fA-F]{3}|[0-9a-fA-F]{6})")
 _VECTOR_WORDS = frozenset({"rgb", "rgba", "rgbf", "rgbt", "srgb", "color", "colour", "vec3", "float3", "vector"})
 _NUMBERS = re.compile(r"[^\s,]+")
 _DECIMAL_COMMA = re.compile(rb"[0-9],[0-9]")
@@ -92,7 +92,7 @@ def _operand(cursor: Cursor, shape: str | None) -> ast.Argument | None:
     if token.kind == "hash":
         return _hash(cursor, token)
     if token.kind == "string":
-        return _string_value(cursor, token)
+        return _string_value(cursor, token, shape)
     if token.text in CLOSERS:
         return _bracketed(cursor, token, shape)
     return _sign(cursor, token)
@@ -134,7 +134,7 @@ def _name_or_call(cursor: Cursor, token: Token, shape: str | None) -> ast.Argume
 
 
 def _hash(cursor: Cursor, token: Token) -> ast.Argument | None:
-    if _HEX_COLOUR.fullmatch(token.text):
+    if HEX_COLOUR.fullmatch(token.text):
         text = colour_of(token.text)
         says = f"{wording.found(token)}; a colour is three numbers between 0 and 1: {text}"
         cursor.faults.add(
@@ -146,11 +146,17 @@ def _hash(cursor: Cursor, token: Token) -> ast.Argument | None:
     return None
 
 
-def _string_value(cursor: Cursor, token: Token) -> ast.Argument | None:
+def _string_value(cursor: Cursor, token: Token, shape: str | None) -> ast.Argument | None:
     inner = token.text[1:-1].strip()
-    if _HEX_COLOUR.fullmatch(inner):
+    if HEX_COLOUR.fullmatch(inner):
         return _hash(cursor, token._replace(text=inner))
-    cursor.invalid_here(token.span, f"found {wording.shown(token)}; there are no texts in quotes")
+    colour = LANGUAGE.colours.get(inner.lower()) if shape != "number" else None
+    if colour is not None:
+        says = f"found {wording.shown(token)}; a colour is three numbers between 0 and 1: {colour}"
+        edits, title = [(token.span, colour)], f"Write {colour}"
+        cursor.faults.add(catalogue.EXPECTED_VECTOR, token.span, says, edits=edits, title=title, sure=shape == "vector")
+    else:
+        cursor.invalid_here(token.span, f"found {wording.shown(token)}; there are no texts in quotes")
     cursor.doubtful = True
     return None
 
@@ -229,6 +235,11 @@ def _bracketed(cursor: Cursor, opener: Token, shape: str | None, word: Token | N
         components = tuple(each for each in inside if not isinstance(each, ast.Vector))
         return ast.Vector(components, cursor.relative(span))
     cursor.doubtful = True
+    if simple and len(inside) == 1 and cursor.peek().kind == "number" and text.lower() in LANGUAGE.types_elsewhere:
+        says = f"found '({text})'; a number is of no other type"
+        cursor.faults.add(catalogue.EXPECTED_NUMBER, span, says, edits=[(span, "")], title="Remove it")
+        cursor.doubtful = False
+        return _number(cursor, cursor.next().span)
     if simple and len(inside) == 1:
         detail = "a number stands alone, without brackets"
         cursor.faults.add(
@@ -275,6 +286,13 @@ def _vector(cursor: Cursor, opener: Token) -> ast.Vector | None:
                 while cursor.peek().kind in (",", "number", "word"):
                     cursor.next()
                 break
+            cursor.next()
+        elif token.kind == ";" and len(components) < 3 and cursor.peek(1).kind == "number":
+            says = f"{wording.found(token)}; the numbers of a vector are separated by commas"
+            edits, kind = [(token.span, ",")], "semicolon in a vector"
+            cursor.faults.add(
+                catalogue.MISSING_MARK, token.span, says, fill=",", edits=edits, title="Write ','", kind=kind
+            )
             cursor.next()
         elif token.kind in ("number", "word") and len(components) < 3:
             if token.kind == "word" and (token.first or certain(token.text, LANGUAGE.keywords)):

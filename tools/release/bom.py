@@ -59,9 +59,9 @@ def python_bill(installed: Path) -> Node:
 
 def crates_bill() -> Node:
     """The crates that are compiled into the kernel, those for building and testing left out."""
-    metadata = json.loads(
-        output("cargo", "metadata", "--format-version", "1", "--manifest-path", ROOT / "renderer/Cargo.toml")
-    )
+    here = output("rustc", "--print", "host-tuple").strip()
+    options = ["--format-version", "1", "--filter-platform", here, "--manifest-path", ROOT / "renderer/Cargo.toml"]
+    metadata = json.loads(output("cargo", "metadata", *options))
     packages = {each["id"]: each for each in metadata["packages"]}
     nodes = {each["id"]: each["deps"] for each in metadata["resolve"]["nodes"]}
 

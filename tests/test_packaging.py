@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import platform
+import runpy
+import sys
 from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -86,3 +89,37 @@ def test_mirage3d_says_all_versions(capsys: pytest.CaptureFixture[str]) -> None:
     said = dict(line.split(" ", 1) for line in capsys.readouterr().out.splitlines())
     assert {name: said.pop(name) for name in DISTRIBUTIONS} == dict.fromkeys(DISTRIBUTIONS, version())
     assert said == {"numpy": np.__version__, "python": platform.python_version(), "platform": platform.platform()}
+
+
+@pytest.mark.parametrize("folder", ["compiler", "renderer", "lsp", "suite"])
+def test_pip_finds_the_other_parts_of_a_checkout(folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the metadata that it reads before it builds; a source distribution alone has no other parts."""
+    described = """Requires-Dist: m3dc==0.1.0
+Requires-Dist: m3d-render[plot]==0.1.0 ; extra == 'plot'
+Requires-Dist: m3dc-other==0.1.0
+Requires-Dist: numpy>=2.2,<3
+"""
+
+    def prepare(to: str, settings: object) -> str:
+        (Path(to) / "METADATA").write_text(described)
+        return "."
+
+    maturin, setuptools = ModuleType("maturin"), ModuleType("setuptools")
+    backend = SimpleNamespace(prepare_metadata_for_build_wheel=prepare)
+    vars(maturin).update(vars(backend))
+    vars(setuptools).update(build_meta=backend)
+    monkeypatch.setitem(sys.modules, "maturin", maturin)
+    monkeypatch.setitem(sys.modules, "setuptools", setuptools)
+    for place in (ROOT / folder, tmp_path):
+        monkeypatch.chdir(place)
+        hooks = runpy.run_path(str(ROOT / folder / "build_backend.py"))
+        hooks["prepare_metadata_for_build_wheel"](str(tmp_path))
+        found = (tmp_path / "METADATA").read_text()
+        if place == tmp_path:
+            assert found == described
+        else:
+            first, second, *rest = found.splitlines()
+            assert first.strip() == f"Requires-Dist: m3dc @ {(ROOT / 'compiler').as_uri()}"
+            renderer = (ROOT / "renderer").as_uri()
+            assert second == f"Requires-Dist: m3d-render[plot] @ {renderer}  ; extra == 'plot'"
+            assert rest == described.splitlines()[2:]

@@ -1,5 +1,5 @@
-"""Writes the version of the root pyproject.toml into every other file that has to state it, and the licence into every
-distribution: part of `make generate`."""
+"""Writes the version of the root pyproject.toml into every other file that has to state it, and into every distribution
+the licence and its build backend: part of `make generate`."""
 
 from __future__ import annotations
 
@@ -19,6 +19,9 @@ DISTRIBUTIONS = {
 """The distributions, and the folder of each. Those of one release want each other's very version."""
 
 TOML = re.compile(r'^version = "(.*)"$', re.MULTILINE)
+BACKEND = "build_backend.py"
+"""The build backend of the distributions that need another one."""
+
 JSON = re.compile(r'^ *"version": "(.*)",?$', re.MULTILINE)
 PIN = re.compile(rf'"(?:{"|".join(DISTRIBUTIONS)})(?:\[\w+\])?==([^"]*)"')
 
@@ -41,11 +44,13 @@ def version() -> str:
 
 
 def texts() -> dict[Path, str]:
-    """Every file that follows from the root's version and licence, with the text that it should have."""
+    """Every file that follows from the version, licence and build backend, with the text that it should have."""
     licence = (ROOT / "LICENSE").read_text(encoding="utf-8")
+    backend = (ROOT / "suite" / BACKEND).read_text(encoding="utf-8")
     return {
         **{ROOT / name: _with_version(ROOT / name, at) for name, at in FILES.items()},
         **{ROOT / folder / "LICENSE": licence for folder in DISTRIBUTIONS.values()},
+        **{ROOT / folder / BACKEND: backend for folder in DISTRIBUTIONS.values() if folder != "grammar"},
     }
 
 

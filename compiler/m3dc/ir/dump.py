@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..meaning.primitive import PRIMITIVES, Field, Listing
+from ..meaning.primitive import PRIMITIVES, Listing
 from ..text.span import Span
 from .scene import SceneIR
 from .tables import LightKind, PrimitiveKind, TextureKind, Triple
@@ -281,23 +281,28 @@ def _primitives(ir: SceneIR, table: str, owner: int, most_rows: int | None) -> I
 
 def _shape(ir: SceneIR, kind: PrimitiveKind, row: int, most_rows: int | None) -> Iterator[str]:
     for said in PRIMITIVES[kind].dump(ir.tables, row, most_rows):
-        match said:
-            case Field(label, bool(value)):
-                yield _field(label, _yes(value))
-            case Field(label, float(value)):
-                yield _field(label, value)
-            case Field(label, value):
-                yield from _triple(label, value)
-            case Listing(label, total, first):
-                yield _field(label, total)
-                for number, (values, below) in enumerate(first):
-                    yield f"{INDENT}{number}\t{_tabbed(values)}"
-                    yield from (f"{INDENT * 2}\t{_tabbed(line)}" for line in below)
-                yield from _more(total - len(first))
+        if isinstance(said, Listing):
+            yield from _listing(said)
+        elif isinstance(said.value, bool):
+            yield _field(said.label, _yes(said.value))
+        elif isinstance(said.value, float):
+            yield _field(said.label, said.value)
+        else:
+            yield from _triple(said.label, said.value)
+
+
+def _listing(listing: Listing) -> Iterator[str]:
+    yield _field(listing.label, listing.total)
+    for number, (values, below) in enumerate(listing.first):
+        yield f"{INDENT}{number}\t{_tabbed(values)}"
+        for line in below:
+            yield f"{INDENT * 2}\t{_tabbed(line)}"
+    yield from _more(listing.total - len(listing.first))
 
 
 def _tabbed(values: Sequence[float]) -> str:
-    return "\t".join(str(value) if isinstance(value, int) else f"{value + 0.0:f}" for value in values)
+    a, b, c = values
+    return f"{a}\t{b}\t{c}" if isinstance(a, int) else f"{a + 0.0:f}\t{b + 0.0:f}\t{c + 0.0:f}"
 
 
 def _more(rows: int) -> Iterator[str]:

@@ -42,7 +42,7 @@ class Field(NamedTuple):
 class Listing(NamedTuple):
     """How many things of a kind there are, under a label of the dump; and the first of them.
 
-    Each is its numbers, and the numbers of lines that belong below it.
+    Each is its three numbers, and the numbers of lines that belong below it.
     """
 
     label: str

@@ -96,12 +96,11 @@ class Evaluator:
         size = Size()
         for item in items:
             content = item.content
-            self._findings = ItemFindings(self._all, item.base)
             if size.excess is not None and isinstance(content, program.Block) and content.entry.keyword != "SCENE":
                 made.append(_NOTHING)  # there is no memory for more
                 continue
             before = len(self._all.found)
-            step = self._once(item.base, content, partial(self._item, content))
+            step = self._once(item.base, content, partial(self._item, item))
             made.append(step)
             if item.start in unfinished:
                 del self._all.found[before:]
@@ -112,7 +111,7 @@ class Evaluator:
             if size.excess is not None:
                 assert isinstance(content, program.Block)
                 what, detail = size.excess
-                self._findings.add(catalogue.TOO_MANY, content.span, detail, fill=what)
+                self._all.add_at(catalogue.TOO_MANY, content.span.at(item.base), detail, fill=what)
                 made[-1] = _NOTHING
         scene = next((step.scene for step in made if step.scene is not None), None)
         fitting = made if size.excess is None else []
@@ -135,12 +134,13 @@ class Evaluator:
             return work()
         return self._memory.do(key, of, work, self._all, self._variables)
 
-    def _item(self, content: program.Content) -> Made:
+    def _item(self, item: program.Item) -> Made:
+        self._findings = ItemFindings(self._all, item.base)
         self._lights = []
-        match content:
-            case program.Assignment():
+        match item.content:
+            case program.Assignment() as content:
                 return Made(self._assign(content), None, (), ())
-            case program.Block():
+            case program.Block() as content:
                 record = self._whole(content)
                 check_reach(record, self._all)
                 scene = record if record.block == "SCENE" else None

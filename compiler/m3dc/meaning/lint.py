@@ -74,8 +74,7 @@ def lint(world: World, items: Iterable[program.Item], findings: Findings, steps:
 
     facts: list[tuple[Base, _Facts]] = []
     for item in items:
-        work = partial(_lint_item, item.content, ItemFindings(findings, item.base))
-        facts.append((item.base, once(item.content, work)))
+        facts.append((item.base, once(item.content, partial(_lint_item, item, findings))))
     report_unused_values(((base, each.usage) for base, each in facts), findings)
     report_radians(((base, each.angles) for base, each in facts if each.angles), findings)
     shapes: list[_Shape] = []
@@ -89,7 +88,8 @@ def lint(world: World, items: Iterable[program.Item], findings: Findings, steps:
         look(world, shapes, findings)
 
 
-def _lint_item(content: program.Content, findings: ItemFindings) -> _Facts:
+def _lint_item(item: program.Item, findings: Findings) -> _Facts:
+    content = item.content
     match content:
         case program.Block():
             body: tuple[program.Member, ...] = (content,)
@@ -97,9 +97,10 @@ def _lint_item(content: program.Content, findings: ItemFindings) -> _Facts:
             body = content.body or ()
         case _:
             body = ()
+    of_item = ItemFindings(findings, item.base)
     for block in program.blocks(body):
         for look in ITEM_LINTS:
-            look(block, findings)
+            look(block, of_item)
     return _Facts(usage(content), tuple(angles(body)))
 
 

@@ -114,7 +114,7 @@ def test_the_readmes_error_is_what_is_printed() -> None:
     (scene,) = (text for name, text in FENCE.findall(readme) if name == "m3d")
     result = m3dc.compile(scene.replace("ZENITH", "ZENIT"), "first.m3d")
     printed = io.StringIO()
-    print_human(result.diagnostics, result.source, printed)
+    print_human(result.diagnostics, result.files, printed)
     assert printed.getvalue().startswith(shown)
 
 

@@ -31,8 +31,10 @@ from .meaning.transform import Transform
 from .meaning.values import Record, TableValue, Value
 from .syntax import ast
 from .syntax.parse import Parsed, parse
+from .text.files import Files, files_of
 from .text.places import Places
 from .text.source import Source
+from .text.span import MAIN
 
 
 class Enclosing(NamedTuple):
@@ -71,12 +73,13 @@ class _Assigned(NamedTuple):
 class Analysis:
     """What each stage made of one text.
 
-    Its `tree` is the concrete syntax tree of the text; `items` are the top-level items that could be read, and
-    `program` those of them, in the same order, that are right as far as they go; `world.made` has an entry for each of
-    `program`. Places in `items` and `program` count from their item; `places` tells where those that records in
-    `world` keep are in the text.
+    Its `source` is the text of MAIN in `files`, and its `tree` the concrete syntax tree of that; `items` are the
+    top-level items that could be read, and `program` those of them, in the same order, that are right as far as they
+    go; `world.made` has an entry for each of `program`. Places in `items` and `program` count from their item; `places`
+    tells where those that the records in `world` keep are in the text.
     """
 
+    files: Files
     source: Source
     tree: Tree
     items: tuple[ast.TopLevel, ...]
@@ -99,7 +102,7 @@ class Analysis:
     @property
     def result(self) -> Result:
         """What `compile` gives for the text."""
-        return Result(self.ir, self.diagnostics, self.source)
+        return Result(self.ir, self.diagnostics, self.files)
 
     # --- asking ---------------------------------------------------------------------------------------------------
 
@@ -209,8 +212,10 @@ class Analyser:
         self._lints = Steps()
 
     @paused()
-    def analyse(self, source: Source) -> Analysis:
-        """All about a text: the same, whatever was analysed before. Never raises on any text."""
+    def analyse(self, scene: Source | Files) -> Analysis:
+        """All about a scene: the same, whatever was analysed before. Never raises on any text."""
+        files = files_of(scene)
+        source = files.read(MAIN)
         findings = Findings()
         self._checks.begin()
         self._runs.begin()
@@ -223,4 +228,4 @@ class Analyser:
             self._lints.begin()
             lint(world, checked, findings, self._lints)
         diagnostics = in_order(findings.diagnostics(syntax.places), source)
-        return Analysis(source, syntax.tree, tuple(items), tuple(checked), world, syntax.places, diagnostics)
+        return Analysis(files, source, syntax.tree, tuple(items), tuple(checked), world, syntax.places, diagnostics)

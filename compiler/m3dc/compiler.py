@@ -15,17 +15,25 @@ from .meaning.evaluate import Evaluator
 from .meaning.lint import lint
 from .meaning.program import Item
 from .syntax.parse import parse
+from .text.files import Files, files_of
 from .text.source import Source
+from .text.span import MAIN
 
 T = TypeVar("T")
 
 
 class Result(NamedTuple):
-    """What compiling gave: the IR as far as it goes, and all diagnostics in the order of the text."""
+    """What compiling gave: the IR as far as it goes, and all diagnostics in the order of the text; `files` has the text
+    that each stands in."""
 
     ir: SceneIR
     diagnostics: tuple[Diagnostic, ...]
-    source: Source
+    files: Files
+
+    @property
+    def source(self) -> Source:
+        """The text of the scene."""
+        return self.files.read(MAIN)
 
     @property
     def ok(self) -> bool:
@@ -35,14 +43,15 @@ class Result(NamedTuple):
     def _repr_html_(self) -> str:
         from .notebook import result_html  # here, because only notebooks ask
 
-        return result_html(self.diagnostics, self.source, self.ir)
+        return result_html(self.diagnostics, self.files, self.ir)
 
 
 @paused()
-def compile(source: str | bytes | Source, name: str = "") -> Result:
-    """Compile a scene. Never raises on any text; `name` is what to call it in the IR and in messages."""
-    if not isinstance(source, Source):
-        source = Source(source.encode() if isinstance(source, str) else source, name)
+def compile(source: str | bytes | Source | Files, name: str = "") -> Result:
+    """Compile a scene: a text, or MAIN of some files. Never raises on any text; `name` is what to call the text in the
+    IR and in messages."""
+    files = files_of(source, name)
+    source = files.read(MAIN)
     findings = Findings()
     syntax = parse(source, findings)
     program: list[Item] = []
@@ -50,7 +59,7 @@ def compile(source: str | bytes | Source, name: str = "") -> Result:
     ir = lower(world, source.name, syntax.places)
     if not has_errors(findings.found):
         lint(world, program, findings)
-    return Result(ir, in_order(findings.diagnostics(syntax.places), source), source)
+    return Result(ir, in_order(findings.diagnostics(syntax.places), source), files)
 
 
 def noted(things: Iterable[T], notes: list[T]) -> Iterator[T]:

@@ -10,7 +10,7 @@ from .diagnostics.levels import Levels
 from .diagnostics.report import summary
 from .ir import SceneIR
 from .ir.html import scene_html
-from .text.source import Source
+from .text.files import Files
 
 MOST_ROWS = 20
 """Diagnostics that are shown one by one."""
@@ -18,11 +18,12 @@ MOST_ROWS = 20
 _COLORS = {"error": "#c00", "warning": "#a60", "hint": "#06a"}
 
 
-def result_html(diagnostics: Sequence[Diagnostic], source: Source, ir: SceneIR) -> str:
+def result_html(diagnostics: Sequence[Diagnostic], files: Files, ir: SceneIR) -> str:
     """The diagnostics, each with its line, then the scene as far as it was compiled."""
     shown = Levels().apply(diagnostics)
     parts: list[str] = []
     for diagnostic in shown[:MOST_ROWS]:
+        source = files.read(diagnostic.span.file)
         line, column = source.position(diagnostic.span.start)
         kind = f'<b style="color: {_COLORS[diagnostic.severity]}">{diagnostic.severity}[{diagnostic.code}]</b>'
         text = escape(source.line(line))

@@ -90,7 +90,7 @@ def _check_normals(scene: str) -> int:
     result = compile_scene(command.read(scene), scene)
     wrong = catalogue.NORMAL_ON_WRONG_SIDE.code
     shown = [found for found in result.diagnostics if found.code == wrong or found.severity == "error"]
-    report.print_human(shown, result.source, sys.stderr)
+    report.print_human(shown, result.files, sys.stderr)
     return SCENE_ERROR if shown else FINE
 
 

@@ -128,7 +128,7 @@ def compiled(scene: str, to: TextIO) -> Result:
     what `m3dc` is asked for. Raises CommandError where there is nothing to read."""
     result = compile_scene(read(scene), scene)
     shown = Levels().apply(result.diagnostics)
-    report.print_human([found for found in shown if found.severity == "error"], result.source, to)
+    report.print_human([found for found in shown if found.severity == "error"], result.files, to)
     return result
 
 

@@ -168,12 +168,12 @@ def test_colours_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
         terminal, file = Terminal(), io.StringIO()
         monkeypatch.delenv("NO_COLOR", raising=False)
         monkeypatch.setenv("TERM", "xterm")
-        print_human(result.diagnostics, result.source, terminal)
-        print_human(result.diagnostics, result.source, file)
+        print_human(result.diagnostics, result.files, terminal)
+        print_human(result.diagnostics, result.files, file)
         assert re.sub(r"\x1b\[[0-9;]*m", "", terminal.getvalue()) == file.getvalue() != terminal.getvalue()
         monkeypatch.setenv("NO_COLOR", "1")
         quiet = Terminal()
-        print_human(result.diagnostics, result.source, quiet)
+        print_human(result.diagnostics, result.files, quiet)
         assert quiet.getvalue() == file.getvalue()
 
 

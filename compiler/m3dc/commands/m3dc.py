@@ -26,10 +26,11 @@ from m3dc_command import (
     write_output,
 )
 
-from .. import Diagnostic, Result, Source, compile
+from .. import Diagnostic, Result, compile
 from ..diagnostics import report
 from ..diagnostics.levels import Levels, levels
 from ..ir.dump import dump
+from ..text.files import Files
 
 # The IR counts the bytes of its source in 32 bits.
 LARGEST_SOURCE = 2**32 - 1
@@ -114,7 +115,7 @@ def _run(options: argparse.Namespace) -> int:
     _check_target(name, options)
     result, shown = _compile(name, options, chosen)
     if options.message_format != "human":
-        _print_for_programs([(shown, result.source)], options)
+        _print_for_programs([(shown, result.files)], options)
     if _has_errors(shown):
         return SCENE_ERROR
     _write(result, options, name)
@@ -124,7 +125,7 @@ def _run(options: argparse.Namespace) -> int:
 def _check(given: list[str], options: argparse.Namespace, chosen: Levels) -> int:
     """Reports on all scenes; returns the worst exit status."""
     status = FINE
-    found: list[tuple[Sequence[Diagnostic], Source]] = []
+    found: list[tuple[Sequence[Diagnostic], Files]] = []
     unread = 0
     names = scenes_of(given)
     for name in names:
@@ -134,7 +135,7 @@ def _check(given: list[str], options: argparse.Namespace, chosen: Levels) -> int
             say(f"m3dc: error: {error}")
             unread, status = unread + 1, USAGE_ERROR
             continue
-        found.append((shown, result.source))
+        found.append((shown, result.files))
         status = max(status, SCENE_ERROR if _has_errors(shown) else FINE)
     if options.message_format != "human":
         _print_for_programs(found, options)
@@ -177,14 +178,12 @@ def _compile(name: str, options: argparse.Namespace, chosen: Levels) -> tuple[Re
     if options.echo:
         report.print_echo(shown, result.source, sys.stdout)
     if options.message_format == "human":
-        report.print_human(shown, result.source, sys.stderr, most=options.max_errors)
+        report.print_human(shown, result.files, sys.stderr, most=options.max_errors)
     return result, shown
 
 
-def _print_for_programs(found: Sequence[tuple[Sequence[Diagnostic], Source]], options: argparse.Namespace) -> None:
-    text = report.FOR_PROGRAMS[options.message_format](
-        [(shown[: options.max_errors], source) for shown, source in found]
-    )
+def _print_for_programs(found: report.Found, options: argparse.Namespace) -> None:
+    text = report.FOR_PROGRAMS[options.message_format]([(shown[: options.max_errors], files) for shown, files in found])
     write_output(text.encode())
 
 

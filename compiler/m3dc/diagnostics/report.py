@@ -8,8 +8,9 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import IO, Any
 
+from ..text.files import Files
 from ..text.source import Source
-from ..text.span import Absolute
+from ..text.span import MAIN, Absolute
 from .catalogue import CATALOGUE
 from .findings import Diagnostic, Related
 
@@ -30,15 +31,15 @@ class _Style:
         return f"\x1b[{_COLORS[kind]}m{text}\x1b[0m" if self._on else text
 
 
-def print_human(diagnostics: Sequence[Diagnostic], source: Source, file: IO[str], *, most: int = MOST_SHOWN) -> None:
+def print_human(diagnostics: Sequence[Diagnostic], files: Files, file: IO[str], *, most: int = MOST_SHOWN) -> None:
     """Each diagnostic with its line and a caret under its place, at most so many, and a summary of all."""
     style = _Style(file)
     for diagnostic in diagnostics[:most]:
-        _print_one(diagnostic, source, file, style)
+        _print_one(diagnostic, files, file, style)
     if len(diagnostics) > most:
         print(f"... and {len(diagnostics) - most} more (--max-errors shows more)", file=file)
     if diagnostics:
-        print(f"{source.name}: {summary(diagnostics)}", file=file)
+        print(f"{files.read(MAIN).name}: {summary(diagnostics)}", file=file)
 
 
 def summary(diagnostics: Sequence[Diagnostic]) -> str:
@@ -48,7 +49,8 @@ def summary(diagnostics: Sequence[Diagnostic]) -> str:
     return ", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in counts if n)
 
 
-def _print_one(diagnostic: Diagnostic, source: Source, file: IO[str], style: _Style) -> None:
+def _print_one(diagnostic: Diagnostic, files: Files, file: IO[str], style: _Style) -> None:
+    source = files.read(diagnostic.span.file)
     line, column = source.position(diagnostic.span.start)
     place = style("place", f"{source.name}:{line}:{column}:")
     kind = style(diagnostic.severity, f"{diagnostic.severity}[{diagnostic.code}]")
@@ -58,8 +60,9 @@ def _print_one(diagnostic: Diagnostic, source: Source, file: IO[str], style: _St
     if diagnostic.detail:
         print(f"{_GUTTER}{mark} {diagnostic.detail}", file=file)
     for related in diagnostic.related:
-        where = source.position(related.span.start)
-        print(f"{_GUTTER}{mark} {related.message}: {source.name}:{where.line}:{where.column}", file=file)
+        there = files.read(related.span.file)
+        where = there.position(related.span.start)
+        print(f"{_GUTTER}{mark} {related.message}: {there.name}:{where.line}:{where.column}", file=file)
     if diagnostic.fix is not None:
         print(f"{_GUTTER}{mark} {style('help', 'help:')} {diagnostic.fix.title}", file=file)
 
@@ -109,33 +112,33 @@ def summary_of_scenes(found: Sequence[Sequence[Diagnostic]], unread: int = 0) ->
     return f"{len(found) + unread} scenes: {', '.join(f'{n} {word}' for n, word in counts if n)}"
 
 
-Found = Sequence[tuple[Sequence[Diagnostic], Source]]
+Found = Sequence[tuple[Sequence[Diagnostic], Files]]
 """What was found in each of several scenes."""
 
 
 def json_lines(found: Found) -> str:
     """One JSON object a line; lines and columns from 1, in characters; `end` is just after the last character."""
-    return "".join(line for diagnostics, source in found for line in _json_lines(diagnostics, source))
+    return "".join(line for diagnostics, files in found for line in _json_lines(diagnostics, files))
 
 
-def _json_lines(diagnostics: Sequence[Diagnostic], source: Source) -> Iterator[str]:
+def _json_lines(diagnostics: Sequence[Diagnostic], files: Files) -> Iterator[str]:
     for diagnostic in diagnostics:
         record: dict[str, Any] = {
-            "file": source.name,
+            "file": files.read(diagnostic.span.file).name,
             "code": diagnostic.code,
             "severity": diagnostic.severity,
             "message": diagnostic.message,
-            **_place(diagnostic.span, source),
+            **_place(diagnostic.span, files),
         }
         if diagnostic.related:
-            record["related"] = [{"message": r.message, **_place(r.span, source)} for r in diagnostic.related]
+            record["related"] = [{"message": r.message, **_place(r.span, files)} for r in diagnostic.related]
         if diagnostic.fix is not None:
             fix = diagnostic.fix
             record["fix"] = {
                 "title": fix.title,
                 "text": fix.text,
                 "certain": fix.certain,
-                **_place(fix.span, source),
+                **_place(fix.span, files),
             }
         yield valid(json.dumps(record, ensure_ascii=False)) + "\n"
 
@@ -145,7 +148,8 @@ def valid(text: str) -> str:
     return re.sub("[\ud800-\udfff]", "\ufffd", text)
 
 
-def _place(span: Absolute, source: Source) -> dict[str, int]:
+def _place(span: Absolute, files: Files) -> dict[str, int]:
+    source = files.read(span.file)
     start, end = source.position(span.start), source.position(span.end)
     return {
         "line": start.line,
@@ -172,8 +176,8 @@ def sarif(found: Found) -> str:
                 "tool": {"driver": {"name": "m3dc", "rules": rules}},
                 "columnKind": "unicodeCodePoints",
                 "results": [
-                    _sarif_result(diagnostic, source, codes)
-                    for diagnostics, source in found
+                    _sarif_result(diagnostic, files, codes)
+                    for diagnostics, files in found
                     for diagnostic in diagnostics
                 ],
             }
@@ -186,22 +190,23 @@ FOR_PROGRAMS: dict[str, Callable[[Found], str]] = {"json": json_lines, "sarif": 
 """What is written for programs, by the name of its format."""
 
 
-def _sarif_result(diagnostic: Diagnostic, source: Source, codes: list[str]) -> dict[str, Any]:
+def _sarif_result(diagnostic: Diagnostic, files: Files, codes: list[str]) -> dict[str, Any]:
     return {
         "ruleId": diagnostic.code,
         "ruleIndex": codes.index(diagnostic.code),
         "level": diagnostic.severity,
         "message": {"text": diagnostic.message},
-        "locations": [{"physicalLocation": _sarif_place(diagnostic.span, source)}],
-        "relatedLocations": [_sarif_related(related, source) for related in diagnostic.related],
+        "locations": [{"physicalLocation": _sarif_place(diagnostic.span, files)}],
+        "relatedLocations": [_sarif_related(related, files) for related in diagnostic.related],
     }
 
 
-def _sarif_related(related: Related[Absolute], source: Source) -> dict[str, Any]:
-    return {"physicalLocation": _sarif_place(related.span, source), "message": {"text": related.message}}
+def _sarif_related(related: Related[Absolute], files: Files) -> dict[str, Any]:
+    return {"physicalLocation": _sarif_place(related.span, files), "message": {"text": related.message}}
 
 
-def _sarif_place(span: Absolute, source: Source) -> dict[str, Any]:
+def _sarif_place(span: Absolute, files: Files) -> dict[str, Any]:
+    source = files.read(span.file)
     start, end = source.position(span.start), source.position(span.end)
     return {
         "artifactLocation": {"uri": uri_reference(source.name)},

@@ -340,8 +340,10 @@ class _Builder:
         if cursor.goto_first_child():
             while True:
                 name = cursor.field_name
-                if name is not None and cursor.node is not None and not cursor.node.is_missing:
-                    fields.setdefault(name, []).append(cursor.node)
+                if name is not None:
+                    child = cursor.node  # made anew each time that it is asked for
+                    if child is not None and not child.is_missing:
+                        fields.setdefault(name, []).append(child)
                 if not cursor.goto_next_sibling():
                     break
         return fields

@@ -38,5 +38,5 @@ def open_scene(scene: str) -> Opened | Fault:
     if result.ok:
         return Opened(result.ir, result.source)
     first = next(diagnostic for diagnostic in result.diagnostics if diagnostic.severity == "error")
-    line = result.source.position(first.span.start).line
+    line = result.files.read(first.span.file).position(first.span.start).line
     return Fault(f"line {line}: {first.headline}", printed.getvalue(), SCENE_ERROR)

@@ -185,7 +185,7 @@ def _reading(key: str, field: Field) -> str:
         case "flag":
             return f'given.flag("{key}")'
         case "number":
-            return f'given.number("{key}")'
+            return f'given.number("{key}", {field.default})'
         case "string":
             return f'given.text("{key}")'
         case "whole" if field.default is not None:

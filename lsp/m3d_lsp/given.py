@@ -11,6 +11,7 @@ from pygls.exceptions import JsonRpcInvalidParams
 from .reading import FARTHEST
 
 Choice = TypeVar("Choice", bound=str)
+Default = TypeVar("Default", float, None)
 
 
 class Given:
@@ -43,10 +44,12 @@ class Given:
             return default
         return value if _is_whole(value, least) else _refuse(name, f"a whole number, {least} or more", value)
 
-    def number(self, name: str) -> float | None:
-        """A number, or None where none is given."""
+    def number(self, name: str, default: Default) -> float | Default:
+        """A number; the default where nothing is given."""
         value = self._get(name)
-        if value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+        if value is None:
+            return default
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
             return value
         return _refuse(name, "a number", value)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import itertools
 import re
 import subprocess
@@ -10,6 +11,7 @@ import sys
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -256,3 +258,33 @@ def test_the_tree_knows_no_keyword() -> None:
     names = {node.name.upper() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
     # What a number, a vector and a declaration look like is form; the types' names happen to be the same.
     assert names & LANGUAGE.keywords == {"NUMBER", "VECTOR", "VARIABLES"}
+
+
+NUMERALS = ("1", "-12.50", ".5", "+1e-9")
+OTHERS = ("any line of text", "../name.txt")
+
+
+def test_the_server_reads_no_numerals() -> None:
+    """What a number is worth it asks the analysis, and where numerals stand the compiler: no regular expression of the
+    server matches one but not other things as well, and only `reading`, which reads JSON, converts to `float`."""
+    folder = PACKAGES["m3d_lsp"]
+    for file in folder.rglob("*.py"):
+        name = ".".join(file.relative_to(folder.parent).with_suffix("").parts)
+        if name.startswith("m3d_lsp.preview") or name in ("m3d_lsp.__main__", "m3d_lsp.frames"):
+            continue  # `frames` reads the lengths of messages
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        floats = [call.lineno for call in calls if isinstance(call.func, ast.Name) and call.func.id == "float"]
+        assert not floats or name == "m3d_lsp.reading", f"{file}:{floats}"
+        given = [call.args[0] for call in calls if call.args and ast.unparse(call.func).startswith("re.")]
+        inline = [argument.value for argument in given if isinstance(argument, ast.Constant)]
+        held: list[Any] = list(vars(importlib.import_module(name)).values())
+        patterns: list[re.Pattern[Any]] = [each for each in held if isinstance(each, re.Pattern)]
+        patterns += [re.compile(text) for text in inline if isinstance(text, (str, bytes))]
+        for pattern in patterns:
+            if not any(_matches(pattern, other) for other in OTHERS):
+                assert not any(_matches(pattern, numeral) for numeral in NUMERALS), f"{file}: {pattern.pattern!r}"
+
+
+def _matches(pattern: re.Pattern[Any], text: str) -> bool:
+    return bool(pattern.fullmatch(text if isinstance(pattern.pattern, str) else text.encode()))

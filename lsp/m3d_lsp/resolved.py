@@ -106,7 +106,8 @@ def _light(here: Enclosing, record: Record) -> str:
     if here.whole.block == "LIGHT":
         direction = unit(here.whole.transform.ways(direction))
     lines = [f"shines along `{vector(direction)}`"]
-    elevation = math.degrees(math.asin(max(-1.0, min(1.0, -float(direction[2])))))
+    down: float = direction.tolist()[2]
+    elevation = math.degrees(math.asin(max(-1.0, min(1.0, -down))))
     lines.append(f"its light comes from {number(elevation)} degrees above the horizon")
     if record.block == "SOURCE" and not record.flag("INFINITE"):
         lines[1] = f"stands at `{vector(here.whole.transform.points(np.array(record.vector('FROM'))))}`"

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple
 
 import numpy as np
 
-from m3d_language import blank_comments
 from m3dc.analysis import Analysis
 from m3dc.meaning import program
 from m3dc.meaning.values import TableValue
-from m3dc.syntax import ast
+from m3dc.syntax import ast, numerals
 
 from .text import Span
 
 VERTICES, FACETS = "VERTICES", ("FACETS", "SFACETS")
-
-# A value of a row: a vector, a numeral or a name.
-_VALUE = re.compile(r"<[^>]*>?|[^\s<>,{}]+")
 
 
 class Vertex(NamedTuple):
@@ -67,8 +62,7 @@ class _Rows:
         offsets = self._table.offsets
         start = self._start + int(offsets[row])
         end = self._start + int(offsets[row + 1]) if row + 1 < len(offsets) else self._end
-        text = blank_comments(self._data[start:end].decode("latin-1"))
-        return [(start + match.start(), start + match.end()) for match in _VALUE.finditer(text)]
+        return list(numerals.values(self._data, start, end))
 
     def corner(self, offset: int) -> int | None:
         """The number of the vertex at the corner at a byte, in a table of facets."""

@@ -5,18 +5,16 @@ Answers `textDocument/documentColor` and `textDocument/colorPresentation`.
 
 from __future__ import annotations
 
-import re
-
 from lsprotocol import types
 
 from m3dc.meaning.values import Vector
+from m3dc.syntax import numerals
 
 from ..colours import colours
 from ..registry import request
 from ..snapshot import Snapshot
+from ..text import Span
 
-_COMPONENT = re.compile(r"[+-]?\.?[0-9][0-9A-Za-z_.+-]*|[A-Za-z][A-Za-z0-9_]*")
-_PLAIN = re.compile(r"[0-9]+\.[0-9]+")
 # As many as tell apart the 256 steps of a picker.
 LEAST_DECIMALS = 3
 SAME = 0.5 / 255
@@ -40,25 +38,27 @@ def colour_presentation(snapshot: Snapshot, params: types.ColorPresentationParam
     was; numbers have as many decimals as before, or as a picker tells apart."""
     span = snapshot.text.span(params.range)
     old = next((colour.value for colour in colours(snapshot.analysis) if colour.span == span), None)
-    new = _rewritten(snapshot.text.part(span), old, (params.color.red, params.color.green, params.color.blue))
+    new = _rewritten(snapshot.text.data, span, old, (params.color.red, params.color.green, params.color.blue))
     return [types.ColorPresentation(new, types.TextEdit(params.range, new))]
 
 
-def _rewritten(vector: str, old: Vector | None, new: Vector) -> str:
-    pieces = re.split(r"(/\*.*?\*/)", vector, flags=re.DOTALL)
-    written = [match for piece in pieces[::2] for match in _COMPONENT.findall(piece)]
+def _rewritten(data: bytes, span: Span, old: Vector | None, new: Vector) -> str:
+    places = list(numerals.scalars(data, *span))
+    written = [data[start:end].decode("utf-8", "replace") for start, end in places]
     if len(written) != len(new):
         return f"< {', '.join(_number(part, LEAST_DECIMALS) for part in new)} >"
     decimals = {len(component.partition(".")[2]) for component in written}
     # All with as many decimals, as in a column: so they stay.
-    fixed = len(decimals) == 1 and max(decimals) >= 2 and all(map(_PLAIN.fullmatch, written))
+    fixed = len(decimals) == 1 and max(decimals) >= 2 and all(numerals.decimals(each) is not None for each in written)
     most = max(decimals) if fixed else max(LEAST_DECIMALS, *decimals)
-    numbers = iter(
-        before if old is not None and abs(after - old[place]) < SAME else _number(after, most, fixed=fixed)
-        for place, (before, after) in enumerate(zip(written, new, strict=True))
-    )
-    pieces[::2] = [_COMPONENT.sub(lambda _: next(numbers), piece) for piece in pieces[::2]]
-    return "".join(pieces)
+    parts: list[str] = []
+    done = span[0]
+    for number, (start, end) in enumerate(places):
+        kept = old is not None and abs(new[number] - old[number]) < SAME
+        component = written[number] if kept else _number(new[number], most, fixed=fixed)
+        parts += [data[done:start].decode("utf-8", "replace"), component]
+        done = end
+    return "".join([*parts, data[done : span[1]].decode("utf-8", "replace")])
 
 
 def _number(value: float, decimals: int, *, fixed: bool = False) -> str:

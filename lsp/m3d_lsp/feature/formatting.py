@@ -92,7 +92,7 @@ def _indented(snapshot: Snapshot, line: int) -> list[types.TextEdit]:
 
 
 _BRACE = re.compile(rb"[{}]")
-_LAST_WORD = re.compile(rb"(\w+)\s*$")
+_LAST_WORD = re.compile(rb"\b([A-Z]+)\s*$")
 _FAR = 200  # bytes between a keyword and its brace
 
 

@@ -3,11 +3,12 @@ block, and so on to the whole text."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from lsprotocol import types
 from tree_sitter import Node
+
+from m3dc.syntax import numerals
 
 from ..comments import comments
 from ..registry import request
@@ -16,7 +17,6 @@ from ..text import Span
 from ..tree import ancestors, leaf_at
 
 _BRACED = {"body", "variables", "table"}
-_WORD = re.compile(rb"[^\s<>,{}]+")
 
 
 @request(types.TEXT_DOCUMENT_SELECTION_RANGE)
@@ -87,10 +87,9 @@ def _row(snapshot: Snapshot, offset: int, table: Node) -> Iterator[Span]:
 
 
 def _word(data: bytes, offset: int, within: Span) -> Iterator[Span]:
-    start = max((data.rfind(blank, within[0], offset) for blank in (b" ", b"\n", b"\t", b"<", b",")), default=-1)
-    match = _WORD.match(data, max(start + 1, within[0]), within[1])
-    if match is not None and match.end() >= offset:
-        yield match.span()
+    span = numerals.around(data, offset, within)
+    if span[0] < span[1]:
+        yield span
 
 
 def _line(snapshot: Snapshot, offset: int, within: Span) -> Iterator[Span]:

@@ -24,6 +24,7 @@ from tree_sitter import Language, Query, QueryCursor
 import m3d_language
 from m3d_language.table import LANGUAGE
 from m3dc.analysis import Analysis
+from m3dc.syntax import numerals
 
 from ..comments import comments
 from ..names import Role, names
@@ -56,7 +57,6 @@ LONG = 20_000  # bytes of a table of which not each number is marked
 _QUERY = Query(Language(m3d_language.language()), m3d_language.HIGHLIGHTS_QUERY)
 _KIND = {capture: number for number, capture in enumerate(KINDS)}
 _BIT = {name: 1 << number for number, name in enumerate(MODIFIERS)}
-_NUMERAL = re.compile(rb"[^\s<>,]+")
 _LINE = re.compile(rb"\S(?:[^\r\n]*\S)?")
 
 
@@ -187,7 +187,7 @@ def _numerals(data: bytes, spans: list[Span], within: Span, longest: int) -> Ite
     for start, end in spans:
         if end - start <= longest:
             start, end = max(start, within[0]), min(end, within[1])
-            yield from (match.span() for match in _NUMERAL.finditer(data, start, end))
+            yield from numerals.scalars(data, start, end)
 
 
 def _in_any(spans: Numbers, places: Numbers) -> NDArray[np.bool_]:

@@ -100,6 +100,6 @@ def _shown(value: Any) -> str:
                 return "; ".join(parts)
             return f"<{', '.join(parts)}>" if len(parts) == 3 else ", ".join(parts)
         case float() | np.floating():
-            return f"{float(cast(Any, value)) + 0.0:g}"
+            return f"{cast(Any, value) + 0.0:g}"
         case _:
             return str(cast(object, value))

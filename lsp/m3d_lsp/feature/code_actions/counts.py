@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from lsprotocol import types
@@ -10,13 +9,11 @@ from lsprotocol import types
 import m3dc
 from m3dc.diagnostics import catalogue
 from m3dc.meaning import program
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast, numerals
 
 from .action import Action, Edit, Site
 
 MISCOUNTED = {catalogue.MORE_ROWS_THAN_SPECIFIED.code, catalogue.FEWER_ROWS_THAN_SPECIFIED.code}
-
-_NUMERAL = re.compile(rb"[^\s<>,{}/]+")
 
 
 def find(site: Site) -> Iterator[Action]:
@@ -33,11 +30,11 @@ def find(site: Site) -> Iterator[Action]:
         rows = _rows(place) if isinstance(table, ast.Table) else None
         if rows is None or not isinstance(table, ast.Table):
             continue
-        start = place.real(table.bulk or table.span)[0] if table.bulk else place.real(table.entries[0].span)[0]
-        match = _NUMERAL.match(site.data, start)
-        if match is None or not match[0].isdigit():
+        start, end = place.real(table.bulk or table.entries[0].span)
+        count = next(numerals.scalars(site.data, start, end), None)
+        if count is None or not site.text(count).isdecimal():
             continue
-        edit: Edit = match.span(), str(rows)
+        edit: Edit = count, str(rows)
         if _is_safe(site, edit):
             title = f"Write that there are {rows} {table.keyword.text}"
             yield Action(title, types.CodeActionKind.QuickFix, [edit], (diagnostic,))
@@ -45,11 +42,8 @@ def find(site: Site) -> Iterator[Action]:
 
 def _rows(place: Site) -> int | None:
     """How many rows the table has, if one number tells it."""
-    assert place.top is not None
-    content = next((item.content for item in place.analysis.program if item.start == place.top.start), None)
-    if content is None:
-        return None
-    table = next((leaf for leaf in program.leaves(content) if leaf.span == place.path[-1].span), None)
+    here = None if place.node is None else place.analysis.enclosing(place.node)
+    table = None if here is None else here.path.member
     if not isinstance(table, program.Table) or len(table.entry.head) != 1:
         return None
     return len(table.bulk.offsets) if table.bulk is not None else len(table.rows)

@@ -120,7 +120,7 @@ def _of_shape(expected: Argument, default: Default) -> tuple[str, str]:
 
 
 def _value(value: Default) -> str:
-    return f"< {', '.join(map(spelled, value))} >" if isinstance(value, tuple) else spelled(float(value or 0))
+    return f"< {', '.join(map(spelled, value))} >" if isinstance(value, tuple) else spelled(value or 0.0)
 
 
 def _block_of(use: Site) -> Block | None:

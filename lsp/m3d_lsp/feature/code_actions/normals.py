@@ -7,8 +7,8 @@ against its own by less than 60 degrees: sharper edges stay sharp.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 from lsprotocol import types
@@ -18,15 +18,13 @@ from m3d_language import blank_comments
 from m3dc.diagnostics import catalogue
 from m3dc.meaning.transform import unit
 from m3dc.meaning.values import Mesh, Record, spelled
-from m3dc.syntax.parse import ast
+from m3dc.syntax import ast, numerals
 
 from .action import Action, Edit, Site
 
 FLAT, SMOOTH, FLAG = "FACETS", "SFACETS", "PHONG"
 SHARP = math.cos(math.radians(60))
 DIGITS = 4
-
-_ROW = re.compile(r"[^\s<>,{}]+\s+[^\s<>,{}]+\s+[^\s<>,{}]+")
 
 
 def find(site: Site) -> Iterator[Action]:
@@ -77,12 +75,12 @@ def _rewritten(site: Site, table: ast.Table, record: Record) -> Edit:
     parts = [] if record.flag(FLAG) else [FLAG, margin if not line.strip() else " "]
     parts.append(SMOOTH)
     done = len(FLAT)
-    for offset, corners in zip(mesh.offsets.tolist(), normals_of(mesh).tolist(), strict=True):
-        row = _ROW.match(plain, offset)
-        assert row is not None
-        parts.append(text[done : row.end()])
+    data, offsets = plain.encode("latin-1"), mesh.offsets.tolist()
+    for offset, after, corners in zip(offsets, [*offsets[1:], len(plain)], normals_of(mesh).tolist(), strict=True):
+        _, _, (_, row_end) = islice(numerals.scalars(data, offset, after), 3)
+        parts.append(text[done:row_end])
         parts += [f" < {', '.join(spelled(round(x, DIGITS) + 0.0) for x in normal)} >" for normal in corners]
-        done = row.end()
+        done = row_end
         blank = len(plain) - len(plain[done:].lstrip())
         if "\n" not in text[done:blank] and blank < len(text) - 1 and plain[done:blank] == text[done:blank]:
             parts.append(f"{margin}    ")

@@ -27,7 +27,8 @@ from .json_values import is_container, keys, values
 
 SUFFIX = ".lsp"
 
-PATIENCE_S = 60.0
+# Less than a whole target is given after its time (GRACE_SECONDS), so that a lost answer is reported.
+PATIENCE_S = 30.0
 URI = "file:///nowhere/scene.m3d"
 SCENE = """\
 VARIABLES { NUMBER size; SURFACE red; }

@@ -196,7 +196,7 @@ def test_the_graph_of_a_crate_is_all_of_it(tmp_path: Path) -> None:
 MAY_DEPEND = {
     "kernel": {"glam", "obvhs", "serde", "wide"},
     "ir": {"m3d-kernel", "glam", "rawzip", "serde", "serde_json"},
-    "work": {"m3d-kernel", "rayon"},
+    "work": {"m3d-kernel", "rayon", "serde"},
     "python": {"m3d-kernel", "m3d-ir", "m3d-work", "glam", "numpy", "pyo3", "rayon"},
     "web": {"m3d-kernel", "m3d-ir"},
 }

@@ -32,27 +32,6 @@ class Paths:
     arcs: NDArray[np.uint32]
 
 
-def trace_paths(
-    ir: SceneIR,
-    angles_rad: Iterable[float],
-    eye_height: float | None = None,
-    at: Iterable[float] | None = None,
-    finer: int = 1,
-) -> Paths:
-    """Traces rays at angles above the horizontal, in radians, from a height (the VIEW's, if none is given).
-
-    `at` are the horizontal distances whose heights are wanted; `finer` divides each interval of the temperature
-    profile into so many layers. For every layer crossing of a ray see `trace_crossings`.
-    """
-    angles = _angles(angles_rad)
-    distances = _numbers([] if at is None else at)
-    try:
-        ends, tips, arcs, heights = _air(ir, finer).paths(_height(ir, eye_height), np.tan(angles), distances.tolist())
-    except ValueError as error:
-        raise SceneError(str(error)) from None
-    return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], tips[:, :2], tips[:, 2], arcs)
-
-
 @dataclass(frozen=True, slots=True)
 class AirLayers:
     """The layers of a scene's air, from the lowest, one or more an interval of the temperature profile.
@@ -71,26 +50,71 @@ EARTH_CURVATURE: float = 1 / _kernel.EARTH_RADIUS
 """1/R, 1/m."""
 
 
-def air_layers(ir: SceneIR, finer: int = 1) -> AirLayers:
-    """The layers that rays are traced through, up to the MIRAGE block's ELEVATION; none without a MIRAGE."""
-    if ir.scene.mirage is None:
-        return AirLayers(*np.zeros((4, 0)))
-    try:
-        bottom, top, effective = _air(ir, finer).layers().T.copy()
-    except ValueError as error:
-        raise SceneError(str(error)) from None
-    return AirLayers(bottom, top, effective + EARTH_CURVATURE, effective)
+class Air:
+    """The air of a scene, ready for any number of rays. Raises SceneError for a scene without a MIRAGE.
+
+    `finer` divides each interval of the temperature profile into so many layers. Rays start at a height, the VIEW's if
+    none is given.
+    """
+
+    def __init__(self, ir: SceneIR, finer: int = 1) -> None:
+        self._eye_height = float(ir.scene.view.eye[2])
+        try:
+            self._kernel = _kernel.Air(m3ir.header(ir), dict(ir.tables), whole("finer", finer, 1, MOST_FINER))
+        except ValueError as error:
+            raise SceneError(str(error)) from None
+
+    def paths(
+        self, angles_rad: Iterable[float], eye_height: float | None = None, at: Iterable[float] | None = None
+    ) -> Paths:
+        """Rays at angles above the horizontal, in radians. `at` are the horizontal distances whose heights are wanted;
+        for every layer crossing of a ray see `crossings`."""
+        angles = _angles(angles_rad)
+        distances = _numbers([] if at is None else at)
+        try:
+            ends, tips, arcs, heights = self._kernel.paths(self._height(eye_height), np.tan(angles), distances.tolist())
+        except ValueError as error:
+            raise SceneError(str(error)) from None
+        return Paths(angles, distances, heights, np.array(_kernel.END_NAMES)[ends], tips[:, :2], tips[:, 2], arcs)
+
+    def crossings(self, angle_rad: float, eye_height: float | None = None) -> NDArray[np.float64]:
+        """Every layer crossing of one ray: rows of (distance, height), the eye first and the end last."""
+        (angle,) = _angles([angle_rad])
+        try:
+            return self._kernel.crossings(self._height(eye_height), float(np.tan(angle)))
+        except ValueError as error:
+            raise SceneError(str(error)) from None
+
+    def layers(self) -> AirLayers:
+        """The layers that rays are traced through, up to the MIRAGE block's ELEVATION."""
+        bottom, top, effective = self._kernel.layers().T.copy()
+        return AirLayers(bottom, top, effective + EARTH_CURVATURE, effective)
+
+    def _height(self, eye_height: float | None) -> float:
+        return self._eye_height if eye_height is None else float(eye_height)
+
+
+def trace_paths(
+    ir: SceneIR,
+    angles_rad: Iterable[float],
+    eye_height: float | None = None,
+    at: Iterable[float] | None = None,
+    finer: int = 1,
+) -> Paths:
+    """`Air.paths` of a scene's air, which is built for this call alone."""
+    return Air(ir, finer).paths(angles_rad, eye_height, at)
 
 
 def trace_crossings(
     ir: SceneIR, angle_rad: float, eye_height: float | None = None, finer: int = 1
 ) -> NDArray[np.float64]:
-    """Every layer crossing of one ray: rows of (distance, height), the eye first and the end last."""
-    (angle,) = _angles([angle_rad])
-    try:
-        return _air(ir, finer).crossings(_height(ir, eye_height), float(np.tan(angle)))
-    except ValueError as error:
-        raise SceneError(str(error)) from None
+    """`Air.crossings` of a scene's air, which is built for this call alone."""
+    return Air(ir, finer).crossings(angle_rad, eye_height)
+
+
+def air_layers(ir: SceneIR, finer: int = 1) -> AirLayers:
+    """`Air.layers` of a scene's air; none without a MIRAGE."""
+    return AirLayers(*np.zeros((4, 0))) if ir.scene.mirage is None else Air(ir, finer).layers()
 
 
 def _angles(radians: Iterable[float]) -> NDArray[np.float64]:
@@ -100,14 +124,5 @@ def _angles(radians: Iterable[float]) -> NDArray[np.float64]:
     return angles
 
 
-def _air(ir: SceneIR, finer: int) -> _kernel.Air:
-    """The kernel's air of a scene. Raises ValueError where it has none."""
-    return _kernel.Air(m3ir.header(ir), dict(ir.tables), whole("finer", finer, 1, MOST_FINER))
-
-
 def _numbers(values: Iterable[float]) -> NDArray[np.float64]:
     return np.asarray(values if isinstance(values, np.ndarray) else list(values), dtype=np.float64)
-
-
-def _height(ir: SceneIR, eye_height: float | None) -> float:
-    return float(ir.scene.view.eye[2] if eye_height is None else eye_height)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from m3d_render import command
 from m3d_render.command import FINE, SCENE_ERROR, USAGE_ERROR, CommandError
-from m3d_render.optics import trace_crossings, trace_paths
+from m3d_render.optics import Air
 from m3d_render.ray_options import angles, distances
 from m3d_render.rendering import SceneError
 from m3dc.files.artefact import replacing, text_of
@@ -89,13 +89,14 @@ def _print(lines: Iterator[str], file: IO[str]) -> None:
 
 
 def _lines(ir: SceneIR, all_angles: NDArray[np.float64], at: list[float] | None) -> Iterator[str]:
+    air = Air(ir)
     for first in range(0, len(all_angles), _BATCH):
         batch = all_angles[first : first + _BATCH]
-        paths = trace_paths(ir, np.radians(batch / 60), at=at)
+        paths = air.paths(np.radians(batch / 60), at=at)
         for i, angle in enumerate(batch):
             end = _row(angle, paths.end_points[i], paths.ends[i])
             if at is None:
-                crossings = trace_crossings(ir, math.radians(angle / 60))
+                crossings = air.crossings(math.radians(angle / 60))
                 yield from (_row(angle, crossing, "") for crossing in crossings[:-1])
                 yield end
                 continue

@@ -628,3 +628,25 @@ def test_a_damaged_ir_is_refused():
     del broken["spheres"]["radius"]
     with pytest.raises(m3d_render.SceneError, match=r"spheres\.radius"):
         m3d_render.render(broken)
+
+
+@pytest.mark.parametrize("axes", [(), (2,), (1,) * 40], ids=["none", "one more", "forty more"])
+def test_a_column_of_another_shape_is_refused(axes: tuple[int, ...]):
+    """An array may have more axes than the kernel can read: up to 64."""
+    ir = merman(4, 4).build()
+    column = ir["spheres"]["radius"]
+    shape = (*column.shape, *axes) if axes else ()
+    ir["spheres"]["radius"] = np.ones(shape)
+    with pytest.raises(m3d_render.SceneError, match=r"damaged scene: spheres"):
+        m3d_render.render(ir)
+
+
+def test_columns_may_lie_in_memory_as_they_like():
+    ir = merman(6, 4).build()
+    expected = m3d_render.render(ir).tobytes()
+    for columns in ir.tables.values():
+        for name, column in columns.items():
+            spread = np.zeros((2 * len(column), *column.shape[1:]), column.dtype)[::2]
+            spread[:] = column
+            columns[name] = spread
+    assert m3d_render.render(ir).tobytes() == expected

@@ -96,8 +96,9 @@ class Finished:
 
     def _bent(self, slope: float) -> tuple[list[tuple[float, float]], str]:
         angle = math.atan(slope)
-        crossings = optics.trace_crossings(self._ir, angle)
-        (end,) = optics.trace_paths(self._ir, [angle]).ends
+        air = optics.Air(self._ir)
+        crossings = air.crossings(angle)
+        (end,) = air.paths([angle]).ends
         return [(r, z) for r, z in crossings.tolist()], str(end)
 
     def _straight(self, slope: float) -> tuple[list[tuple[float, float]], str]:

@@ -16,11 +16,13 @@ enum Typed {
 
 /// The header and the columns of a file. Columns of types that the kernel does not read are left out.
 pub struct Archive {
+    /// A JSON text.
     pub header: String,
     columns: HashMap<String, (usize, Typed)>,
 }
 
 impl Archive {
+    /// What the bytes of a file hold.
     pub fn read(file: &[u8]) -> Result<Self> {
         let broken = |error: rawzip::Error| damaged(error.to_string());
         let archive = ZipArchive::from_slice(file).map_err(|_| damaged("it is not an .m3ir file"))?;

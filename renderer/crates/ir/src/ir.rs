@@ -7,6 +7,7 @@ use crate::tables::{Table, Tables};
 
 /// A compiled scene.
 pub struct Ir<'a> {
+    /// What the scene says once.
     pub globals: Globals,
     tables: &'a dyn Tables,
 }

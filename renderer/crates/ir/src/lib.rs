@@ -5,6 +5,8 @@
 //! so is one that names rows of another more than once, and what does not fit in memory. So a damaged file can do no
 //! more than that, and the kernel relies on it.
 
+#![deny(missing_docs)]
+
 mod air;
 mod archive;
 mod generated;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+/// Why a scene is not rendered.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Refusal {
     /// Something is missing, of the wrong type, or contradicts something else.
@@ -12,6 +13,7 @@ pub enum Refusal {
     TooLarge,
 }
 
+/// What is read, or why not.
 pub type Result<T> = std::result::Result<T, Refusal>;
 
 pub fn damaged(what: impl Into<String>) -> Refusal {

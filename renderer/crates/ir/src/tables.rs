@@ -15,15 +15,20 @@ const FARTHEST: f64 = 1e75;
 /// The numbers of a column, entry after entry.
 #[derive(Clone, Copy, Debug)]
 pub enum Numbers<'a> {
+    /// NumPy's float64.
     F64(&'a [f64]),
+    /// int32.
     I32(&'a [i32]),
+    /// bool.
     Bool(&'a [bool]),
 }
 
-/// A column: its numbers, and how many of them are one entry: 1, 3 of a vector, 16 of a matrix by rows.
+/// A column. An entry is 1 number, 3 of a vector, or 16 of a matrix by rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Column<'a> {
+    /// All numbers of the column.
     pub numbers: Numbers<'a>,
+    /// How many of them are one entry.
     pub width: usize,
 }
 

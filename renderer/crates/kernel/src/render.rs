@@ -59,6 +59,16 @@ impl Settings {
         self.outputs.iter().map(|output| output.channels()).sum()
     }
 
+    /// The same in parts of so many rows, from the top. Each can be rendered without the others, wherever the scene is.
+    pub fn parts(&self, rows: usize) -> impl Iterator<Item = Self> {
+        let end = self.top + self.rows;
+        (self.top..end).step_by(rows.max(1)).map(move |top| Self {
+            top,
+            rows: rows.max(1).min(end - top),
+            ..self.clone()
+        })
+    }
+
     pub fn film(&self) -> Film {
         Film { log_scale: self.options.log_scale, normalize: self.options.normalize }
     }

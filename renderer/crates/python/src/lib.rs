@@ -410,16 +410,10 @@ fn refused(refusal: Refusal) -> PyErr {
     }
 }
 
-/// Why a path may end.
-const END_NAMES: [&str; 4] = ["ground", "top", "range", "segments"];
-
+/// Which of `END_NAMES` tells why a path has ended.
 fn end_number(end: Option<End>) -> u8 {
-    match end {
-        Some(End::Ground) => 0,
-        Some(End::Top) => 1,
-        Some(End::Range) => 2,
-        Some(End::Segments) | None => 3,
-    }
+    let end = end.unwrap_or(End::Segments);
+    End::ALL.iter().take_while(|&&other| other != end).count() as u8
 }
 
 #[pymodule]
@@ -428,7 +422,7 @@ fn _kernel(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<Scene>()?;
     module.add_class::<Air>()?;
     module.add("EARTH_RADIUS", EARTH_RADIUS)?;
-    module.add("END_NAMES", END_NAMES.to_vec())?;
+    module.add("END_NAMES", End::ALL.map(End::name).to_vec())?;
     module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
     module.add("LAYERS", Output::ALL.map(|(name, output)| (name, output.channels())).to_vec())
 }

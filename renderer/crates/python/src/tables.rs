@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use m3d_ir::{Column, Numbers, Tables};
-use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -61,9 +61,15 @@ impl<'py> PythonTables<'py> {
     }
 }
 
+/// Axes that a column may have: its rows, and those of a matrix. An array may have more than Rust can read.
+const MOST_AXES: usize = 3;
+
 fn typed<'py>(array: &Bound<'py, PyAny>) -> Option<(usize, Typed<'py>)> {
     fn width<T: Element>(array: &Bound<PyArrayDyn<T>>) -> usize {
         array.shape().iter().skip(1).product()
+    }
+    if array.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() > MOST_AXES) {
+        return None;
     }
     if let Ok(array) = array.cast::<PyArrayDyn<f64>>() {
         Some((width(array), Typed::F64(Held::of(array))))

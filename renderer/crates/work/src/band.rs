@@ -11,7 +11,9 @@ use crate::watch::Watch;
 /// Where what is rendered goes, row after row: three numbers a pixel, and those of the extra outputs.
 #[derive(Debug)]
 pub struct Canvas<'a> {
+    /// Three numbers a pixel.
     pub pixels: &'a mut [f32],
+    /// As many numbers a pixel as `Settings::channels` says.
     pub outputs: &'a mut [f32],
 }
 

@@ -1,5 +1,9 @@
-//! The picture as work. A job is a scene and `Settings`, plain values that can be sent to another thread, process or
-//! machine; its rows are shared out among threads, in passes if parts of it are wanted early, and watched from outside.
+//! The picture as work. A job is a scene, which every machine reads from its `.m3ir` file, and `Settings`, which can be
+//! written down. Its rows are shared out among threads, in passes if tiles of it are wanted early, and watched from
+//! outside. For other processes and machines `Settings::parts` makes jobs of it that nobody needs the others for: put
+//! together, their pixels are those of the whole.
+
+#![deny(missing_docs)]
 
 mod band;
 mod pass;

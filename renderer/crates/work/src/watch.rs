@@ -5,12 +5,15 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// The state of a rendering that others may watch and stop.
 #[derive(Debug)]
 pub struct Watch {
+    /// Pixels that have been rendered.
     pub pixels_done: AtomicUsize,
+    /// Set by whoever wants no more.
     pub cancelled: AtomicBool,
     pub(crate) finished: Vec<AtomicBool>,
 }
 
 impl Watch {
+    /// Of a rendering of so many rows, yet to begin.
     pub fn new(rows: usize) -> Self {
         Self {
             pixels_done: AtomicUsize::new(0),

@@ -26,6 +26,19 @@ pub enum End {
     Segments,
 }
 
+impl End {
+    pub const ALL: [End; 4] = [End::Ground, End::Top, End::Range, End::Segments];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            End::Ground => "ground",
+            End::Top => "top",
+            End::Range => "range",
+            End::Segments => "segments",
+        }
+    }
+}
+
 /// How far a curve has been followed.
 #[derive(Clone, Copy, Debug)]
 pub struct Tip {

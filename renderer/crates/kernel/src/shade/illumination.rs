@@ -81,7 +81,8 @@ impl Light {
                 if axis.is_nan() || axis < cone || (exponent > 0.0 && axis <= 0.0) {
                     return None;
                 }
-                let beam = if exponent > 0.0 { axis.powf(exponent) } else { 1.0 };
+                // Rounding may take the cosine beyond 1, of which a large exponent makes more than the light has.
+                let beam = if exponent > 0.0 { axis.min(1.0).powf(exponent) } else { 1.0 };
                 let loss = if attenuation == 0.0 { 1.0 } else { (1.0 + distance).powf(attenuation) };
                 Some(Incident { toward, distance, color: full * (beam / loss) })
             }
@@ -153,5 +154,16 @@ mod tests {
         assert_eq!(at(light(0.0, 0.0, 30.0), 1.0, 1.0), None);
         assert_eq!(at(light(0.0, 1.0, 180.0), 0.0, 1.0), None);
         assert!((at(light(0.0, 2.0, 180.0), 1.0, 1.0).unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_narrow_beam_is_nowhere_brighter_than_the_light() {
+        for i in 0..2000 {
+            let angle = 0.37 * f64::from(i);
+            let direction = DVec3::new(angle.cos(), angle.sin(), (1.7 * angle).cos()).normalize();
+            let light = Light { direction, ..light(0.0, 1e15, 180.0) };
+            let lit = light.at(3.0 * direction).unwrap();
+            assert!(lit.color.max_element() <= light.intensity, "{:?}", lit.color);
+        }
     }
 }

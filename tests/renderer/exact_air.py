@@ -6,7 +6,8 @@ height alone, and a ray is followed by its elevation angle ψ above the local ho
     dz/ds = sin ψ    dx/ds = cos ψ / (1 + z/R)    dψ/ds = cos ψ (1/(R + z) + n'/n)
 
 s is the length of the ray, x the distance along the earth's surface. Where the gradient of the index jumps, the
-integration begins anew: it never steps over a kink.
+integration begins anew: it never steps over a kink. It begins anew where a ray is level, too, so that the height only
+rises or only falls in between, and no boundary is passed twice within a step.
 
 >>> STANDARD.refraction(0.0, 0.0) * 3600 * 180 / math.pi  # the setting sun's, from sea level
 1970.1597...
@@ -23,6 +24,7 @@ from typing import Self
 import numpy as np
 from array_types import Floats
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 EPSILON, BETA, GRAVITY, EARTH, SEA_LEVEL, CELSIUS = 226e-6, 3.48e-3, 9.80665, 6_371_000.0, 101_325.0, 273.15
 
@@ -99,8 +101,7 @@ class Air:
         above = bisect.bisect_right(self.heights, z) - 1
         if above >= 0 and z == self.heights[above]:
             # On a boundary: as the ray points, or as it is turned.
-            upward = elevation > 0 or (elevation == 0 and self._turning(min(above, len(self.indices) - 1), z) > 0)
-            above -= not upward
+            above -= not self._rises(min(above, len(self.indices) - 1), Point(0.0, z, elevation))
         return above if 0 <= above < len(self.indices) else None
 
     def _cross(self, shell: int, ray: Ray, farthest: float) -> int | None:
@@ -115,29 +116,34 @@ class Air:
             return [cosine / (1 + z / radius), math.sin(psi), cosine * (1 / (radius + z) + slope / (1 + refractivity))]
 
         start = ray.end
-        ends = [_Passing(1, low, -1), _Passing(1, high, 1)]
+        rises = self._rises(shell, start)
+        ahead = _Passing(1, high, 1) if rises else _Passing(1, low, -1)
+        ends = [ahead, _Passing(2, 0.0, -1 if rises else 1)]
         if math.isfinite(farthest):
             ends.append(_Passing(0, farthest, 1))
         step = solve_ivp(
             equation, (0.0, 1e9), [start.distance, start.height, start.elevation], method="DOP853", rtol=1e-13,
-            atol=[1e-9, 1e-11, 1e-16], events=ends, dense_output=bool(ray.heights),
+            atol=[1e-9, 1e-11, 1e-16], events=ends, dense_output=True,
         )  # fmt: skip
         assert step.status == 1, "a ray that never leaves"
         assert step.t_events is not None
-        x, z, psi = step.y[:, -1].tolist()
-        if step.sol is not None:
-            asked = [distance for distance in ray.heights if start.distance <= distance <= x]
-            for distance in asked:
-                ray.heights[distance] = _height_at(step.sol, step.t[-1], distance)
-        happened = [len(times) > 0 for times in step.t_events]
-        if happened[0]:
-            z, then = low, shell - 1
-        elif happened[1]:
-            z, then = high, shell + 1
-        else:
-            then = None
-        ray.points.append(Point(x, z, psi))
-        return then if then is not None and 0 <= then < len(self.indices) else None
+        assert step.sol is not None
+        way, length, then = step.sol, float(step.t[-1]), shell
+        turns = len(step.t_events[1]) > 0
+        if len(step.t_events[0]) > 0 or (turns and (way(length)[1] > high or way(length)[1] < low)):
+            # Where it turned just beyond the boundary, within the same step, that was not noticed.
+            length = brentq(lambda s: ahead(s, way(s)), 0.0, length, xtol=1e-12) if turns else length
+            turns, then = False, shell + 1 if rises else shell - 1
+        x, z, psi = way(length).tolist()
+        for distance in ray.heights:
+            if start.distance <= distance <= x:
+                ray.heights[distance] = _height_at(way, length, distance)
+        ray.points.append(Point(x, z if then == shell else ahead.value, 0.0 if turns else psi))
+        return then if 0 <= then < len(self.indices) else None
+
+    def _rises(self, shell: int, at: Point) -> bool:
+        """Whether a ray goes up from here, or from a level start is turned up."""
+        return at.elevation > 0 or (at.elevation == 0 and self._turning(shell, at.height) > 0)
 
 
 @dataclass
@@ -146,7 +152,7 @@ class Ray:
     heights: dict[float, float | None]
     """At the distances asked for; None where it does not come so far."""
     points: list[Point] = field(default_factory=list)
-    """Where it passed from one shell into the next, and its end."""
+    """Where it passed from one shell into the next or was level, and its end."""
 
     @property
     def end(self) -> Point:

@@ -6,9 +6,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from m3d_language.table import LANGUAGE, Argument, Block, Statement, Table
+from m3dc.analysis import Analysis
 from m3dc.syntax import ast
 
-from .names import Names
+from .names import names
 
 
 class Slot(NamedTuple):
@@ -28,10 +29,10 @@ class Entry(NamedTuple):
     slot: Slot | None
 
 
-def entry_of(at: ast.Located, known: Names) -> Entry:
+def entry_of(at: ast.Located, analysis: Analysis) -> Entry:
     """What a node of the tree is. A keyword belongs to the block that its item stands in."""
     *outer, item = at.path
-    block = block_of(outer[-1], known) if outer else None
+    block = block_of(outer[-1], analysis) if outer else None
     if block is None:
         return Entry(None, None, None)
     match item:
@@ -44,13 +45,13 @@ def entry_of(at: ast.Located, known: Names) -> Entry:
     return Entry(block, member, None if member is None else _slot_of(at, member, arguments))
 
 
-def block_of(item: ast.Item, known: Names) -> Block | None:
+def block_of(item: ast.Item, analysis: Analysis) -> Block | None:
     """The block of the language that an item is, or is the value of: its members may stand in the item's braces."""
     match item:
         case ast.Block():
             return LANGUAGE.blocks.get(item.keyword.text)
         case ast.Assignment():
-            return LANGUAGE.blocks.get(known.type(item.target.text) or "")
+            return LANGUAGE.blocks.get(names(analysis).type(item.target.text) or "")
         case _:
             return None
 

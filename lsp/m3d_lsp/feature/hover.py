@@ -63,10 +63,10 @@ def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
 
 
 def _keyword(snapshot: Snapshot, leaf: Node, at: ast.Located | None) -> str:
-    block = cursor.read(snapshot, leaf.start_byte).block
-    here = None
     if at is not None and isinstance(at.node, ast.Keyword):
-        block, here = entry_of(at, names(snapshot.analysis)).block, snapshot.analysis.enclosing(at)
+        block, here = entry_of(at, snapshot.analysis).block, snapshot.analysis.enclosing(at)
+    else:
+        block, here = cursor.read(snapshot, leaf.start_byte).block, None
     said = explain.keyword(leaf.type, block.keyword if block else None) or ""
     known = "" if at is None or here is None else _resolved(snapshot, at, here)
     return f"{known}{RULE}{said}" if known and said else known or said
@@ -151,7 +151,7 @@ def _value(snapshot: Snapshot, at: ast.Located, leaf: Span) -> tuple[str, Span]:
     if vector is not None and not isinstance(vector.node, ast.Vector):
         vector = None
     here = snapshot.analysis.enclosing(at)
-    entry = entry_of(at, names(snapshot.analysis))
+    entry = entry_of(at, snapshot.analysis)
     value = snapshot.analysis.value_of(at)
     found: list[str] = []
     if entry.member is not None and entry.slot is not None:

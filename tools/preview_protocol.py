@@ -126,8 +126,10 @@ def _python(described: Protocol) -> Iterator[str]:
     yield f'"""What is said about previews. {_MADE}.\n'
     yield 'Answers and notifications are dictionaries, as JSON has them.\n"""\n'
     yield "from __future__ import annotations\n"
-    yield "from typing import Any, Literal, NamedTuple, TypeAlias, TypedDict\n\nfrom lsprotocol import types\n"
-    yield "from m3d_render import RenderOptions\n\nfrom ..given import Given\n"
+    yield "from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict\n"
+    yield "from lsprotocol import types\n\nfrom ..given import Given\n"
+    yield "if TYPE_CHECKING:  # the server's process does not load the renderer"
+    yield "    from m3d_render import RenderOptions\n"
     for name, (says, values) in described.choices.items():
         yield f"{name}: TypeAlias = Literal[{', '.join(f'{value!r}' for value in values)}]".replace("'", '"')
         yield f'"""{says}"""\n'

@@ -3,15 +3,17 @@ server gives."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from m3d_render import RenderOptions
 from m3dc.ir import SceneIR
 
 from . import wire
+
+if TYPE_CHECKING:
+    from m3d_render import RenderOptions
 
 
 class Scene(NamedTuple):

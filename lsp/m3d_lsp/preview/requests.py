@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from m3d_render import RenderOptions
 from m3dc.ir import SceneIR, View
 
 from ..documents import file_name
@@ -25,6 +24,8 @@ from .previews import Shown
 from .progress import WorkDone
 
 if TYPE_CHECKING:
+    from m3d_render import RenderOptions
+
     from ..server import Server
 
 # A picture with all that is kept of it takes 64 bytes a pixel.

@@ -5,13 +5,14 @@ Answers and notifications are dictionaries, as JSON has them.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict
 
 from lsprotocol import types
 
-from m3d_render import RenderOptions
-
 from ..given import Given
+
+if TYPE_CHECKING:  # the server's process does not load the renderer
+    from m3d_render import RenderOptions
 
 Optics: TypeAlias = Literal["straight", "mirage"]
 """Whether the air bends light. A scene without MIRAGE is the same with both."""

@@ -1,4 +1,4 @@
-"""Collecting garbage, which what a scene is made of is not.
+"""Python's cyclic garbage collection, switched off while much is made that is no garbage.
 
 Python looks through all new objects every few hundred of them, for circles that nothing else refers to. There are none
 in a scene, and its many small tuples would be looked through again and again: half of the time that compiling takes.

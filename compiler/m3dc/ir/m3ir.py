@@ -186,7 +186,7 @@ _KINDS = {bool: "true or false", int: "a whole number", str: "a text"}
 
 
 def _member(kind: Any, data: Any, name: str) -> Any:
-    """A member of the header of a kind that is annotated in ir.py, from its JSON form."""
+    """A member of the header, from its JSON form. `kind` is what scene.py says of it."""
     if get_origin(kind) is Annotated:
         base, within = get_args(kind)
         value = _member(base, data, name)

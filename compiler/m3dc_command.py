@@ -21,7 +21,9 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from types import FrameType
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 FINE, SCENE_ERROR, USAGE_ERROR = 0, 1, 2
 
@@ -29,6 +31,9 @@ EXIT_STATUS = "Exit status: 0 fine, 1 the scene has errors, 2 usage or files, 13
 
 TRACEBACK = "MIRAGE3D_TRACEBACK"
 """The environment variable that asks for the traceback of an internal error."""
+
+
+_TERMINATING: list[int] = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 class CommandError(Exception):
@@ -52,10 +57,35 @@ class Terminated(KeyboardInterrupt):
 
 def started(program: str, load: Callable[[], Callable[[], int]]) -> int:
     """The exit status of a command of which `load` imports the main function: what an installed script calls."""
-    status = ended(program, lambda: load()())
+    status = ended(program, lambda: undisturbed(load)())
     # While Python itself ends there is nobody left to explain an interrupt.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return status
+
+
+def undisturbed(load: Callable[[], T]) -> T:
+    """What `load` imports. A signal that comes meanwhile interrupts afterwards, a second one at once: compiled modules
+    that are being loaded take an interrupt for a module that is missing, or lose it."""
+    came: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        if len(came) > 1:
+            handlers[number](number, frame)
+
+    handlers: dict[int, Callable[[int, FrameType | None], Any]] = {}
+    for number in (signal.SIGINT, *_TERMINATING):
+        handler = signal.getsignal(number)
+        if callable(handler):  # neither ignored nor left to the system
+            handlers[number] = handler
+            signal.signal(number, note)
+    try:
+        return load()
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if came:
+            signal.raise_signal(came[0])
 
 
 def ended(program: str, action: Callable[[], int]) -> int:
@@ -79,7 +109,7 @@ def ended(program: str, action: Callable[[], int]) -> int:
 
 def say(line: str) -> None:
     """Writes one line to standard error, whatever is in it, if anything can be written there."""
-    shown = "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in line)
+    shown = "".join(character if character.isprintable() else "\ufffd" for character in line)
     with contextlib.suppress(OSError):
         print(shown, file=sys.stderr, flush=True)
 
@@ -138,9 +168,8 @@ def _prepare_streams() -> None:
 def _hear_signals() -> list[int]:
     """From now on the signals that ask to end are interrupts; returns which were not heard before."""
     heard: list[int] = []
-    for name in ("SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+    for number in _TERMINATING:
+        if signal.getsignal(number) is signal.SIG_DFL:
             try:
                 signal.signal(number, _terminate)
             except ValueError:  # not in the main thread

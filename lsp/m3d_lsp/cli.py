@@ -7,10 +7,13 @@ import logging
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-from m3dc_command import ended
+from m3dc_command import ended, undisturbed
 from m3dc_command import parser as command_parser
+
+if TYPE_CHECKING:
+    from .server import Server
 
 # How long one thread may keep the others waiting: what is long work to the server is a blink to a person.
 SWITCH_INTERVAL_S = 0.001
@@ -52,10 +55,8 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
         print(f"m3d-lsp: can not write {options.log_file}: {error.strerror}", file=sys.stderr)
         return 2
 
-    from .server import make_server
-
     sys.setswitchinterval(SWITCH_INTERVAL_S)
-    server = make_server()
+    server = undisturbed(_server)
     if options.tcp:
         try:
             server.start_tcp(*address)
@@ -65,6 +66,12 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     else:
         server.start_io()
     return server.exit_status
+
+
+def _server() -> Server:
+    from .server import make_server
+
+    return make_server()
 
 
 def run() -> NoReturn:

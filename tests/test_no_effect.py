@@ -112,6 +112,7 @@ QUIET = (
     "SOLID { SPHERE { TRANSFORM { ROTZ 1.5 ROTX 45 } } } "
     "SCENE { SKY { SUN { ZENITH 1.5 } } VIEW { TO < 0, 0, 0 > FOV 1.57 } }",
     "SOLID { SPHERE { TRANSFORM { ROTZ 0.05 } } }",
+    "SOLID { SPHERE { TRANSFORM { ROTATE < 5, -3, 0 > } } TRANSFORM { ROTZ 2 } }",
     "SOLID { SPHERE { } SURFACE { COLOR < 1, 1, 0 > } } SCENE { SKY { } MIRAGE { PROFILE { 0 80 5 40 20 30 } } }",
     # In a ball with a lamp, or on its skin.
     "SOLID { SPHERE { CENTER < 20, 0, 6 > RADIUS 3 } } SCENE { } LIGHT { SOURCE { POINT FROM < 19, 0, 6 > } }",

@@ -660,7 +660,7 @@ ANGLE_IN_RADIANS = _hint(
     "M3D0528",
     "Angle looks like radians",
     "Angles are in degrees. These are: a common part of a turn as it is in radians, such as 1.57; or rotations of a "
-    "scene that has none of more than 6.28 degrees.",
+    "scene that has none of more than 6.28 degrees, if not all are whole numbers.",
     f"{_LIT} SOLID {{ SPHERE {{ TRANSFORM {{ ROTZ 1.57 }} }} }}",
     f"{_LIT} SOLID {{ SPHERE {{ TRANSFORM {{ ROTZ 90 }} }} }}",
 )

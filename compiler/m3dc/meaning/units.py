@@ -50,13 +50,14 @@ def angles(members: Iterable[program.Member]) -> Iterator[Angle]:
 
 def report_radians(items: Iterable[tuple[Base, tuple[Angle, ...]]], findings: Findings) -> None:
     """Report the angles of a scene, given by item with its base, that look like radians: a common part of a turn as one
-    rounds it; or any rotation of a scene in which none is greater than a full turn in radians."""
+    rounds it; or any rotation of a scene in which none is greater than a full turn in radians, unless all are whole
+    numbers: a tilt of 5 degrees is common, one of 5 radians is not."""
     known = [(base, angle) for base, found in items for angle in found]
-    largest = max((abs(angle.value) for _, angle in known if angle.keyword in _TURNS), default=0.0)
+    turns = [abs(angle.value) for _, angle in known if angle.keyword in _TURNS]
+    all_small = max(turns, default=0.0) <= 2 * math.pi and not all(turn.is_integer() for turn in turns)
     for base, angle in known:
         value = abs(angle.value)
-        small = largest <= 2 * math.pi and value >= _LEAST_TURN and angle.keyword in _TURNS
-        if small or _is_part(value):
+        if (all_small and value >= _LEAST_TURN and angle.keyword in _TURNS) or _is_part(value):
             degrees = round(math.degrees(angle.value), 1)
             detail = f"{spelled(angle.value)} is in degrees; as radians it would be {degrees:g} degrees"
             findings.add_at(catalogue.ANGLE_IN_RADIANS, angle.span.at(base), detail)

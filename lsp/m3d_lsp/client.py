@@ -27,8 +27,9 @@ PLAINER = {
 class Client:
     """`images` is whether pictures in Markdown are shown as such and not as their text; `resolves_edits` whether the
     edits of a code action can be asked for when it is chosen; `action_literals` whether it takes actions, and not only
-    commands; `applies_edits` whether it changes a text when it is asked to. `commands` are those of its own that a code
-    lens may have, `is_told` whether it wants to hear when a document has been looked at (docs/protocol.md)."""
+    commands; `applies_edits` whether it changes a text when it is asked to; `most_folds` how many folding
+    ranges it takes of a document, None for any number. `commands` are those of its own that a code lens may have,
+    `is_told` whether it wants to hear when a document has been looked at (docs/protocol.md)."""
 
     hover_markdown: bool = False
     completion_markdown: bool = False
@@ -44,6 +45,7 @@ class Client:
     symbol_trees: bool = False
     symbol_kinds: frozenset[int] = FIRST_SYMBOLS
     item_kinds: frozenset[int] = FIRST_ITEMS
+    most_folds: int | None = None
     related_places: bool = False
     unnecessary: bool = False
     pages_of_codes: bool = False
@@ -62,7 +64,9 @@ class Client:
         symbols = document.document_symbol
         kinds = symbols.symbol_kind if symbols else None
         items = document.completion.completion_item_kind if document.completion else None
-        found = document.publish_diagnostics or types.PublishDiagnosticsClientCapabilities()
+        # What it can show of a diagnostic, however it gets them.
+        found = [each for each in (document.publish_diagnostics, document.diagnostic) if each is not None]
+        folding = document.folding_range
         workspace = capabilities.workspace
         own = _own(capabilities.experimental)
         commands = own.get("commands")
@@ -82,9 +86,12 @@ class Client:
             symbol_trees=bool(symbols and symbols.hierarchical_document_symbol_support),
             symbol_kinds=_numbers(kinds.value_set) if kinds and kinds.value_set else FIRST_SYMBOLS,
             item_kinds=_numbers(items.value_set) if items and items.value_set else FIRST_ITEMS,
-            related_places=bool(found.related_information),
-            unnecessary=bool(found.tag_support and types.DiagnosticTag.Unnecessary in found.tag_support.value_set),
-            pages_of_codes=bool(found.code_description_support),
+            most_folds=folding.range_limit if folding else None,
+            related_places=any(each.related_information for each in found),
+            unnecessary=any(
+                each.tag_support and types.DiagnosticTag.Unnecessary in each.tag_support.value_set for each in found
+            ),
+            pages_of_codes=any(each.code_description_support for each in found),
             commands=frozenset(map(str, cast("list[Any]", commands)) if isinstance(commands, list) else ()),
             is_told=own.get("analysed") is True,
         )

@@ -205,6 +205,50 @@ def test_what_a_client_can_not_show_is_not_sent() -> None:
         assert not [message for message in talk.said if message.get("method") != "textDocument/publishDiagnostics"]
 
 
+def test_no_more_folds_than_a_client_takes() -> None:
+    """The outermost."""
+    text = "SOLID {\n  SPHERE {\n  RADIUS 2\n  }\n}\nLIGHT {\n  SOURCE {\n  FROM < 0, 0, 9 >\n  }\n\n}\n"
+    every = [(0, 4), (1, 3), (5, 10), (6, 8)]
+    limits: list[tuple[Any, list[tuple[int, int]]]] = [(3, every[:3]), (0, []), (5000, every), (-1, every)]
+    for limit, expected in limits:
+        capabilities = {"textDocument": {"foldingRange": {"rangeLimit": limit, "lineFoldingOnly": True}}}
+        with Talk(initialize(capabilities)) as talk:
+            talk.send(opened(text))
+            folds = talk.ask(1, request(1, "textDocument/foldingRange", {"textDocument": {"uri": URI}}))
+            assert (limit, [(fold["startLine"], fold["endLine"]) for fold in folds]) == (limit, expected)
+
+
+def test_what_a_client_shows_of_diagnostics_that_it_asks_for() -> None:
+    """It may say so where it says that it asks, or where it says what it takes when told."""
+    shows = {"relatedInformation": True, "codeDescriptionSupport": True, "tagSupport": {"valueSet": [1]}}
+    unused = "VARIABLES { SPHERE a; } a = { } SCENE { SKY { } SKY { } }\n"
+    document = {"textDocument": {"uri": URI}}
+    said: tuple[dict[str, Any], ...] = (
+        {"diagnostic": shows},
+        {"diagnostic": {}, "publishDiagnostics": shows},
+        {"diagnostic": {}},
+    )
+    for capabilities in said:
+        with Talk(initialize({"textDocument": capabilities})) as talk:
+            talk.send(opened(unused))
+            found = talk.ask(1, request(1, "textDocument/diagnostic", document))["items"]
+            members = {"relatedInformation", "codeDescription", "tags"} & {key for each in found for key in each}
+            assert len(members) == (3 if shows in capabilities.values() else 0)
+            assert not talk.said
+
+
+def test_a_document_opened_again_with_another_text_has_its_own_diagnostics() -> None:
+    document = {"textDocument": {"uri": URI}}
+    with Talk(initialize({"textDocument": {"diagnostic": {}}})) as talk:
+        talk.send(opened("SOLID { SPHERE { } }\n"))
+        first = talk.ask(1, request(1, "textDocument/diagnostic", document))
+        again = {**document, "previousResultId": first["resultId"]}
+        assert talk.ask(2, request(2, "textDocument/diagnostic", again))["kind"] == "unchanged"
+        talk.send(notification("textDocument/didClose", document) + opened("SOLID { SPHERE }\n"))
+        other = talk.ask(3, request(3, "textDocument/diagnostic", again))
+        assert (other["kind"], [each["severity"] for each in other["items"]]) == ("full", [1])
+
+
 def test_commands_in_place_of_actions() -> None:
     with Talk(initialize({"workspace": {"applyEdit": True}})) as talk:
         talk.send(opened("SOLID { SPHERE { RADIUS size } }\n"))

@@ -80,7 +80,8 @@ def lsp_diagnostic(snapshot: Snapshot, diagnostic: Diagnostic) -> types.Diagnost
 )
 def pull(snapshot: Snapshot, params: types.DocumentDiagnosticParams) -> types.DocumentDiagnosticReport:
     """The diagnostics of a document; that they are the same still, where the client has them already."""
-    known = f"{snapshot.version}:{hash(snapshot.settings.diagnostics)}"
+    # By the text: a document that is closed and opened again may have the version it had with another text.
+    known = f"{hash(snapshot.text.data)}:{hash(snapshot.settings.diagnostics)}"
     if params.previous_result_id == known:
         return types.RelatedUnchangedDocumentDiagnosticReport(known)
     return types.RelatedFullDocumentDiagnosticReport(of(snapshot), result_id=known)

@@ -21,7 +21,8 @@ from ..text import Span, Text
 
 @request(types.TEXT_DOCUMENT_FOLDING_RANGE)
 def folding(snapshot: Snapshot, params: types.FoldingRangeParams) -> list[types.FoldingRange]:
-    """What can be folded, of whole lines; at most one begins on a line."""
+    """What can be folded, of whole lines; at most one begins on a line. Where the client takes only so many, they
+    are the longest: what stands around another is longer than it."""
     del params
     text = snapshot.text
     found: dict[int, types.FoldingRange] = {}
@@ -33,7 +34,8 @@ def folding(snapshot: Snapshot, params: types.FoldingRangeParams) -> list[types.
     for _, _, first, last in _with_lines(text, list(_comments(snapshot))):
         if last > first:
             found.setdefault(first, types.FoldingRange(first, last, kind=types.FoldingRangeKind.Comment))
-    return [found[line] for line in sorted(found)]
+    folds = sorted(found.values(), key=lambda fold: fold.start_line - fold.end_line)[: snapshot.client.most_folds]
+    return sorted(folds, key=lambda fold: fold.start_line)
 
 
 def _with_lines(text: Text, spans: list[Span]) -> Iterator[tuple[int, int, int, int]]:

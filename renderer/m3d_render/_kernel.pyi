@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from m3d_render.rendering import Request
-from m3dc.ir import Table
+from m3dc.ir import Columns
 
 VERSION: str
 EARTH_RADIUS: float
@@ -20,7 +20,7 @@ class Outcome:
     counts: dict[str, int]
 
 class Scene:
-    def __new__(cls, header: str, tables: Mapping[str, Table], finer: int) -> Scene: ...
+    def __new__(cls, header: str, tables: Mapping[str, Columns], finer: int) -> Scene: ...
     @property
     def observer(self) -> tuple[float, float, float] | None: ...
     def sees(self, points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]: ...
@@ -33,7 +33,7 @@ class Scene:
     ) -> Outcome: ...
 
 class Air:
-    def __new__(cls, header: str, tables: Mapping[str, Table], finer: int) -> Air: ...
+    def __new__(cls, header: str, tables: Mapping[str, Columns], finer: int) -> Air: ...
     def layers(self) -> NDArray[np.float64]: ...
     def paths(
         self, height: float, slopes: NDArray[np.float64], distances: list[float]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from m3dc.diagnostics.catalogue import CATALOGUE
 
-PAGE = Path(__file__).parent.parent / "docs/diagnostics.md"
+from .generated import ROOT, write
+
+PAGE = ROOT / "docs/diagnostics.md"
 
 INTRODUCTION = """\
 # Diagnostics
@@ -42,4 +42,4 @@ def page() -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
+    write({PAGE: page()})

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import re
 from enum import IntEnum
-from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, NamedTuple, get_args, get_origin
 
 from m3dc import ir
 from m3dc.ir.m3ir import VERSION
 
-PAGE = Path(__file__).parent.parent / "renderer/crates/ir/src/generated.rs"
+from .generated import ROOT, write
+
+PAGE = ROOT / "renderer/crates/ir/src/generated.rs"
 
 KINDS: tuple[type[IntEnum], ...] = (ir.PrimitiveKind, ir.TextureKind, ir.LightKind)
 _TYPES = {float: "f64", int: "i64", bool: "bool", ir.Triple: "[f64; 3]"}
@@ -92,4 +93,4 @@ def _says(kind: type[Any]) -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
+    write({PAGE: page()})

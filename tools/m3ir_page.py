@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
 from types import UnionType
 from typing import Annotated, NamedTuple, get_args, get_origin
 
@@ -12,7 +11,9 @@ from m3dc import ir
 from m3dc.ir.m3ir import VERSION
 from m3dc.text.span import Span
 
-PAGE = Path(__file__).parent.parent / "docs/m3ir.md"
+from .generated import ROOT, write
+
+PAGE = ROOT / "docs/m3ir.md"
 
 INTRODUCTION = f"""\
 # The .m3ir file
@@ -88,4 +89,4 @@ def _members(kind: type[NamedTuple], path: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
+    write({PAGE: page()})

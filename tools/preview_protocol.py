@@ -16,7 +16,8 @@ from typing import Any, NamedTuple, TypeAlias
 from m3d_render.formats import FORMATS
 from m3d_render.options import PREVIEW, Option, Switch, Whole
 
-ROOT = Path(__file__).parent.parent
+from .generated import ROOT, write
+
 SOURCE = ROOT / "protocol/preview.toml"
 PYTHON = ROOT / "lsp/m3d_lsp/preview/wire.py"
 TYPESCRIPT = ROOT / "web/picture/src/protocol.ts"
@@ -344,10 +345,5 @@ def _field_rows(fields: Fields) -> Iterator[str]:
         yield f"| `{key}{'?' if field.optional else ''}` | {field.is_} | {field.says} |"
 
 
-def main() -> None:
-    for path, text in texts().items():
-        path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write(texts())

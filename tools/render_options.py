@@ -12,7 +12,8 @@ from pathlib import Path
 from m3d_render.formats import FORMATS
 from m3d_render.options import KERNEL, OPTIONS, Kind, Option, Real, Switch, Whole
 
-ROOT = Path(__file__).parent.parent
+from .generated import ROOT, write
+
 CRATES = ROOT / "renderer/crates"
 DOCS = ROOT / "docs/rendering.md"
 
@@ -118,10 +119,5 @@ def _flag(name: str, option: Option) -> str:
     return f"`--{name.replace('_', '-')}{value}`"
 
 
-def main() -> None:
-    for path, text in texts().items():
-        path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write(texts())

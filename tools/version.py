@@ -7,7 +7,7 @@ import re
 import tomllib
 from pathlib import Path
 
-ROOT = Path(__file__).parent.parent
+from .generated import ROOT, write
 
 DISTRIBUTIONS = {
     "m3d-language": "grammar",
@@ -66,12 +66,5 @@ def _with_version(path: Path, at: re.Pattern[str]) -> str:
     return text
 
 
-def main() -> None:
-    for path, text in texts().items():
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
-            print(f"wrote {path.relative_to(ROOT)}")
-
-
 if __name__ == "__main__":
-    main()
+    write(texts())

@@ -10,12 +10,13 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from m3d_language.table import LANGUAGE, Argument, Block, Default
+from m3d_language.table import LANGUAGE, Argument, Default
 from m3dc import Diagnostic
 from m3dc.diagnostics import catalogue
 from m3dc.meaning.values import spelled
 from m3dc.syntax.parse import ast
 
+from ...entry import block_of, slot
 from ...names import names
 from ...text import Span
 from .action import Action, Site
@@ -96,21 +97,21 @@ def _argument(use: Site, item: ast.Statement | ast.Table, at: Span) -> Iterator[
     if isinstance(arguments[number], ast.Vector):
         yield "NUMBER", "0"
         return
-    block = _block_of(use)
+    block = block_of(use.path[-2], use.analysis) if len(use.path) > 1 else None
+    if block is None:
+        return
     if isinstance(item, ast.Statement):
-        entry = block.statements.get(item.keyword.text) if block else None
-        if entry is None or number >= len(entry.arguments):
+        member = block.statements.get(item.keyword.text)
+        if member is None or number >= len(member.arguments):
             return
-        expected, default = entry.arguments[number], entry.default
-        if isinstance(default, tuple) and len(entry.arguments) > 1:
+        default = member.default
+        if isinstance(default, tuple) and len(member.arguments) > 1:
             default = default[number]
     else:
-        table = block.tables.get(item.keyword.text) if block else None
-        if table is None:
-            return
-        after = number - len(table.head)
-        expected, default = (table.head[number] if after < 0 else table.row[after % len(table.row)]), None
-    yield _of_shape(expected, default)
+        member, default = block.tables.get(item.keyword.text), None
+    found = None if member is None else slot(member, number, None)
+    if found is not None:
+        yield _of_shape(found.argument, default)
 
 
 def _of_shape(expected: Argument, default: Default) -> tuple[str, str]:
@@ -121,13 +122,3 @@ def _of_shape(expected: Argument, default: Default) -> tuple[str, str]:
 
 def _value(value: Default) -> str:
     return f"< {', '.join(map(spelled, value))} >" if isinstance(value, tuple) else spelled(value or 0.0)
-
-
-def _block_of(use: Site) -> Block | None:
-    """The block of the language that the innermost item is a member of."""
-    if len(use.path) < 2:
-        return None
-    outer = use.path[-2]
-    if isinstance(outer, ast.Assignment):
-        return LANGUAGE.blocks.get(names(use.analysis).type(outer.target.text) or "")
-    return LANGUAGE.blocks.get(outer.keyword.text) if isinstance(outer, ast.Block) else None
